@@ -207,7 +207,9 @@ void events_alone(std::size_t most, std::size_t queries, bool undivided, std::os
         const double seconds = bench::now() - start;
         total += seconds;
         worst = std::max(worst, seconds);
-        answers[0] += found.visible.size(), answers[1] += found.hidden.size(), answers[2] += found.undecided.size();
+        answers[0] += found.visible.size();
+        answers[1] += found.hidden.size();
+        answers[2] += found.undecided.size();
         sum += found.counters;
       }
       if (faces > most) break;

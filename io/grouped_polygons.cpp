@@ -232,7 +232,8 @@ class Gltf_writer {
     std::vector<std::uint32_t> triangles, owners;
     std::vector<float> places;
     std::array<float, 3> least, most;
-    least.fill(std::numeric_limits<float>::infinity()), most.fill(-std::numeric_limits<float>::infinity());
+    least.fill(std::numeric_limits<float>::infinity());
+    most.fill(-std::numeric_limits<float>::infinity());
     for (std::uint32_t i = 0; i < all_.polygons().size(); ++i) {
       if (all_.polygons()[i].group != group) continue;
       const std::uint32_t base = static_cast<std::uint32_t>(owners.size());
@@ -241,7 +242,8 @@ class Gltf_writer {
         const Polygons::Point& p = all_.points()[all_.corners()[k]];
         for (std::size_t axis = 0; axis < 3; ++axis) {
           places.push_back(static_cast<float>(p[axis] - middle_[axis]));
-          least[axis] = std::min(least[axis], places.back()), most[axis] = std::max(most[axis], places.back());
+          least[axis] = std::min(least[axis], places.back());
+          most[axis] = std::max(most[axis], places.back());
         }
         owners.push_back(i);
       }
@@ -249,7 +251,8 @@ class Gltf_writer {
     }
     if (triangles.empty()) return false;
     Json attributes{{"POSITION", add_numbers(places, "VEC3")}};
-    accessors_.back()["min"] = least, accessors_.back()["max"] = most;
+    accessors_.back()["min"] = least;
+    accessors_.back()["max"] = most;
     attributes["_FACE"] =
         add_column(owners, [&](std::uint32_t i) { return static_cast<float>(id_of(all_.polygons()[i])); });
     for (const Polygons::Column& column : all_.columns()) {
@@ -317,7 +320,10 @@ class Gltf_writer {
 
 std::size_t Grouped_polygons::Hash::operator()(const Point& p) const {
   std::uint64_t hash = 0;
-  for (const double x : p) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u, hash ^= hash >> 29;
+  for (const double x : p) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
+    hash ^= hash >> 29;
+  }
   return static_cast<std::size_t>(hash);
 }
 

@@ -144,7 +144,10 @@ std::optional<bool> Doubles_search::find_line(const Polygon& source, const Polyg
   }
   // 2. The best end for the other one, in turn.
   for (int round = 0; round < 8; ++round)
-    if (improve(line, round % 2 == 0) > options_->tolerance) return improve(line, round % 2 != 0), true;
+    if (improve(line, round % 2 == 0) > options_->tolerance) {
+      improve(line, round % 2 != 0);
+      return true;
+    }
   return std::nullopt;
 }
 

@@ -134,7 +134,9 @@ struct Image_axes {
   explicit Image_axes(const Pixel_view& pixels) {
     Vector_of<Number> look, right, up;
     if constexpr (is_rounded<Number>) {
-      look = converted<Number>(pixels.look), right = converted<Number>(pixels.right), up = converted<Number>(pixels.up);
+      look = converted<Number>(pixels.look);
+      right = converted<Number>(pixels.right);
+      up = converted<Number>(pixels.up);
     } else {
       std::array<Rational, 9> all;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -143,10 +145,13 @@ struct Image_axes {
         all[k + 6] = exact(pixels.up[k]);
       }
       const std::array<Integer, 9> scaled = integers(all);
-      look = {scaled[0], scaled[1], scaled[2]}, right = {scaled[3], scaled[4], scaled[5]},
+      look = {scaled[0], scaled[1], scaled[2]};
+      right = {scaled[3], scaled[4], scaled[5]};
       up = {scaled[6], scaled[7], scaled[8]};
     }
-    across = cross(up, look), upwards = cross(look, right), depth = cross(right, up);
+    across = cross(up, look);
+    upwards = cross(look, right);
+    depth = cross(right, up);
     if (dot(depth, look) < 0)
       for (Vector_of<Number>* form : {&across, &upwards, &depth}) *form = {-(*form)[0], -(*form)[1], -(*form)[2]};
   }
@@ -279,13 +284,15 @@ class Newell {
       }
       const auto plane = Number_image<Number>::plane(arms);
       if (!plane) return std::nullopt;
-      normal = plane->normal, at_plane = plane->at_plane;
+      normal = plane->normal;
+      at_plane = plane->at_plane;
     } else {
       const std::array<Rational, 4> h = scene_.file_coefficients(piece.support);
       const Exact_point& e = pixels_.eye;
       const std::array<Integer, 4> scaled =
           integers<4>({h[0], h[1], h[2], -(h[0] * e[0] + h[1] * e[1] + h[2] * e[2] + h[3])});
-      normal = {scaled[0], scaled[1], scaled[2]}, at_plane = scaled[3];
+      normal = {scaled[0], scaled[1], scaled[2]};
+      at_plane = scaled[3];
       if (at_plane == 0) return std::nullopt;
     }
     const bool from_behind = at_plane > 0;
@@ -317,7 +324,10 @@ class Newell {
       e = {std::min(e.left, its.across),  std::max(e.right, its.across),  std::min(e.low, its.upwards),
            std::max(e.high, its.upwards), std::min(e.nearest, its.depth), std::max(e.farthest, its.depth)};
     }
-    if (!is_before_eye) e.left = e.low = -infinity, e.right = e.high = infinity;
+    if (!is_before_eye) {
+      e.left = e.low = -infinity;
+      e.right = e.high = infinity;
+    }
     return e;
   }
 

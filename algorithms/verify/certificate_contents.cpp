@@ -373,7 +373,8 @@ void Contents::check_graph() const {
   for (std::size_t k = 0; k < graph_.arcs.size(); ++k) {
     const Graph_certificate::Arc& arc = graph_.arcs[k];
     const std::string at = entry_name("arcs", k);
-    check_below(arc.from, fragments.size(), at), check_below(arc.to, fragments.size(), at);
+    check_below(arc.from, fragments.size(), at);
+    check_below(arc.to, fragments.size(), at);
     check_below(arc.corner_from, fragments[arc.from].vertices.size(), at);
     check_below(arc.corner_to, fragments[arc.to].vertices.size(), at);
   }
@@ -421,7 +422,8 @@ void Contents::check_weak() const {
 void Contents::check_along() const {
   const std::vector<Order_fragment>& fragments = covering_.fragments;
   const auto check_range = [&](const Along_certificate::Range& of, const std::string& at) {
-    check_below(of.low, along_.moments.size(), at), check_below(of.high, along_.moments.size(), at);
+    check_below(of.low, along_.moments.size(), at);
+    check_below(of.high, along_.moments.size(), at);
   };
   const auto check_side = [&](const Along_certificate::Side& of, const std::string& at) {
     check_below(of.fragment, fragments.size(), at);
@@ -489,8 +491,10 @@ Certificate Contents::finish(const std::vector<std::pair<std::string, std::optio
       return std::find(known.begin(), known.end(), std::string_view(name).substr(0, name.find('['))) == known.end();
     });
   };
-  of_this_kind(points_), of_this_kind(rays_);
-  put_late(points_), put_late(rays_);
+  of_this_kind(points_);
+  of_this_kind(rays_);
+  put_late(points_);
+  put_late(rays_);
   if (kind->name == "graph") check_graph();
   if (kind->name == "see") check_parts();
   if (kind->name == "weak") check_weak();

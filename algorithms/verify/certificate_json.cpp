@@ -69,7 +69,10 @@ class Text {
     std::size_t count = count_ - (next_ - passed_);
     for (; passed_ < next_; ++passed_) {
       const char c = buffer_[passed_];
-      if (before_ == '\n' || (before_ == '\r' && c != '\n')) ++line_, column_ = 0;
+      if (before_ == '\n' || (before_ == '\r' && c != '\n')) {
+        ++line_;
+        column_ = 0;
+      }
       if (++count > byte_order_mark.size() || byte_order_mark[count - 1] != c) ++column_;
       before_ = c;
     }
@@ -178,7 +181,8 @@ bool Events::key(string_t& name) {
   passing_over_ = !list;
   if (!list) return true;
   keys_.emplace_back(std::move(name), std::nullopt);
-  line_ = text_.line(), column_ = text_.column();
+  line_ = text_.line();
+  column_ = text_.column();
   if (twice) throw Certificate_error(line_, column_, keys_.back().first + ": is there twice");
   return true;
 }
@@ -196,7 +200,10 @@ Json* Events::add(Json value) {
 bool Events::value(Json scalar) {
   if (depth_ == 0) throw Certificate_error(text_.line(), text_.column(), "top level: expected an object");
   if (passing_over_) return true;
-  if (open_.empty()) line_ = text_.line(), column_ = text_.column();
+  if (open_.empty()) {
+    line_ = text_.line();
+    column_ = text_.column();
+  }
   if (depth_ == 1 && *is_list(keys_.back().first)) keep(keys_.back().first + ": expected an array");
   else {
     add(std::move(scalar));
@@ -212,7 +219,10 @@ bool Events::open(Json empty) {
     return true;
   }
   if (passing_over_) return true;
-  if (open_.empty()) line_ = text_.line(), column_ = text_.column();
+  if (open_.empty()) {
+    line_ = text_.line();
+    column_ = text_.column();
+  }
   if (depth_ == 2 && *is_list(keys_.back().first)) {
     if (!empty.is_array()) keep(keys_.back().first + ": expected an array");
     in_list_ = empty.is_array();

@@ -81,7 +81,10 @@ void write_text(std::ostream& out, std::string_view text) {
 struct Hash {
   std::size_t operator()(const Exact_point* p) const {
     std::size_t h = 14695981039346656037u;
-    const auto add = [&](std::size_t word) { h = (h ^ word) * 1099511628211u, h ^= h >> 29; };
+    const auto add = [&](std::size_t word) {
+      h = (h ^ word) * 1099511628211u;
+      h ^= h >> 29;
+    };
     for (const Rational& number : *p)
       for (const Integer* part : {&number.get_num(), &number.get_den()}) {
         add(static_cast<std::size_t>(mpz_sgn(part->get_mpz_t()) + 1));
@@ -173,9 +176,15 @@ void write(std::ostream& out, const Weak_certificate::Node& node) {
         out << '[' << term.line << ',';
         write(out, term.factor);
         if (term.source || term.target) out << ",{";
-        if (term.source) out << R"("source":)", write(out, *term.source);
+        if (term.source) {
+          out << R"("source":)";
+          write(out, *term.source);
+        }
         if (term.source && term.target) out << ',';
-        if (term.target) out << R"("target":)", write(out, *term.target);
+        if (term.target) {
+          out << R"("target":)";
+          write(out, *term.target);
+        }
         out << (term.source || term.target ? "}]" : "]");
       });
   }
@@ -343,7 +352,10 @@ Visible_certificate_writer::Visible_certificate_writer(std::ostream& out, const 
   write_begin(out, "sightline see 2");
   out << R"(,"eye":)";
   write(out, eye);
-  if (!field.empty()) out << R"(,"field":)", write(out, field);
+  if (!field.empty()) {
+    out << R"(,"field":)";
+    write(out, field);
+  }
   write_covering(out, scene);
   out << R"(,"rays":[)";
 }

@@ -155,7 +155,8 @@ struct Half_space {
     Integer here, there;
     for (std::size_t k = 0; any_in && k < rays.size(); ++k) {
       const Integer_vector& next = rays[(k + 1) % rays.size()];
-      value(here, rays[k]), value(there, next);
+      value(here, rays[k]);
+      value(there, next);
       if (sgn(here) >= 0) kept.push_back(rays[k]);
       if (sgn(here) * sgn(there) >= 0) continue;
       Integer_vector& d = kept.emplace_back();
@@ -201,7 +202,8 @@ std::optional<Window> window_of(const Cone& cone, std::size_t side) {
   // 2. The box around where its rays meet the side.
   Window window;
   for (std::size_t k = 0; k < 2; ++k) {
-    window.low[k] = std::numeric_limits<std::int64_t>::max(), window.high[k] = std::numeric_limits<std::int64_t>::min();
+    window.low[k] = std::numeric_limits<std::int64_t>::max();
+    window.high[k] = std::numeric_limits<std::int64_t>::min();
     for (const Integer_vector& d : rays) {
       thread_local Integer depth;
       mpz_abs(depth.get_mpz_t(), d[axis].get_mpz_t());

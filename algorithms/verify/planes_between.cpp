@@ -144,7 +144,10 @@ Planes_between::Cut Planes_between::cut_by_samples(const Part& part) const {
     const Cut cut = at_plane_of(candidate, candidate);
     std::size_t count = 0;
     for (std::size_t s = 0; s < samples; ++s) count += is_apart(begin + size * s / samples, cut);
-    if (count > most) most = count, at = candidate;
+    if (count > most) {
+      most = count;
+      at = candidate;
+    }
   }
   return at_plane_of(at, at);
 }

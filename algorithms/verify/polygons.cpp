@@ -253,7 +253,8 @@ Cone::Cone(Corner_places corners, std::span<const Integer_vector* const> all, co
   edge_on = sgn(height) == 0;
   if (edge_on) return;
   const bool front = sgn(height) > 0;
-  rays.reserve(corners.size()), edge_planes.reserve(corners.size());
+  rays.reserve(corners.size());
+  edge_planes.reserve(corners.size());
   sense = front ? -1 : 1;
   const auto edge_plane = [&](const Integer_vector& first, const Integer_vector& second) {
     Integer_vector plane = cross(first, second);

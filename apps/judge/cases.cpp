@@ -107,7 +107,8 @@ std::vector<Case_group> groups_of_families(const Case_choice& choice, const Case
                                     choice.size > 0 ? fmt::format(" --size {}", choice.size) : ""),
                         make, parameters.ulps, "exactly degenerate",
                         [family, parameters, options](std::uint64_t seed, std::int64_t ulps) mutable {
-                          parameters.seed = seed, parameters.ulps = ulps;
+                          parameters.seed = seed;
+                          parameters.ulps = ulps;
                           return case_of(*family, parameters, options);
                         },
                         ""});

@@ -121,7 +121,8 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
   // Of rays the first is kept that breaks the contract when asked alone.
   for (const Wrong_ray& wrong : broken.grade.wrong_rays) {
     generate::Posed_scene alone{scene};
-    alone.eye = asked.query.rays[wrong.ray].origin, alone.source = {asked.query.rays[wrong.ray].direction};
+    alone.eye = asked.query.rays[wrong.ray].origin;
+    alone.source = {asked.query.rays[wrong.ray].direction};
     one_ray = true;
     one_ray = fails(alone);
     if (!one_ray) continue;
@@ -185,8 +186,10 @@ class Common_guess {
     return readings_;
   }
   void add(const Kinds& kinds) {
-    kinds_.concave_right += kinds.concave_right, kinds_.concave_wrong += kinds.concave_wrong;
-    kinds_.convex_right += kinds.convex_right, kinds_.convex_wrong += kinds.convex_wrong;
+    kinds_.concave_right += kinds.concave_right;
+    kinds_.concave_wrong += kinds.concave_wrong;
+    kinds_.convex_right += kinds.convex_right;
+    kinds_.convex_wrong += kinds.convex_wrong;
   }
   std::vector<std::string> words() const {
     std::vector<std::string> all;

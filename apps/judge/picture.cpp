@@ -49,7 +49,10 @@ Direction3 best_look(const Direction3& line, const Direction3& normal) {
         const double value = std::sqrt(std::max(0.0, 1 - along * along)) *
                              (0.4 + std::min(0.7, std::fabs(dot(look, normal)))) *
                              (z < 0 ? 1.1 : 1.0);  // rather from above
-        if (value > most) most = value, best = look;
+        if (value > most) {
+          most = value;
+          best = look;
+        }
       }
   return best;
 }
@@ -60,7 +63,9 @@ View view_of(const std::vector<Exact_point>& points, const Direction3& look) {
   const Extent extent(points);
   const Direction3 middle = extent.middle();
   View view;
-  view.width = 480, view.height = 360, view.look = look;
+  view.width = 480;
+  view.height = 360;
+  view.look = look;
   for (std::size_t k = 0; k < 3; ++k) view.eye[k] = exact(middle[k] - far * extent.size() * look[k]);
   double half = 1e-9;
   const Axes axes = axes_of(view);
@@ -111,7 +116,10 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
   // 1. The line that refutes; an eye that is far from the scene stays outside of the picture.
   const bool solids = query.question == judge::Question::boolean;
   Exact_point from = weak ? query.source.at(0) : solids ? points[0] : query.eye, to = points[0];
-  if (why.refutation) from = why.refutation->from, to = why.refutation->to;
+  if (why.refutation) {
+    from = why.refutation->from;
+    to = why.refutation->to;
+  }
   const Direction3 along = near(minus(from, to));
   const double distance = std::sqrt(dot(along, along));
   const bool far = distance > 4 * size;

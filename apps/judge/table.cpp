@@ -13,7 +13,10 @@ static std::array<std::size_t, 2> wrong_counts(const judge::Grade& grade) {
   if (grade.wrong_rays.empty() && grade.wrong_points.empty())
     return {grade.wrong_visible.size(), grade.wrong_hidden.size()};
   std::array<std::size_t, 2> counts{};
-  for (const judge::Wrong_ray& ray : grade.wrong_rays) counts[0] += ray.said.has_value(), counts[1] += !ray.nothing;
+  for (const judge::Wrong_ray& ray : grade.wrong_rays) {
+    counts[0] += ray.said.has_value();
+    counts[1] += !ray.nothing;
+  }
   for (const judge::Wrong_point& point : grade.wrong_points) ++counts[point.is_held() ? 0 : 1];
   return counts;
 }
@@ -34,7 +37,8 @@ Json sums_of(const std::vector<const Judged*>& cases) {
     breaches += c->breaks;
     judged += c->grade.judged;
     const auto [visible, hidden] = wrong_counts(c->grade);
-    wrong_visible += visible, wrong_hidden += hidden;
+    wrong_visible += visible;
+    wrong_hidden += hidden;
     if (c->answer.surface) {
       double &volume = errors["volume"], &area = errors["area"];
       volume = std::max(volume, std::fabs(c->grade.volume_error));

@@ -31,7 +31,10 @@ std::vector<Viewpoint> hard_views(const Polygon_soup& soup, std::size_t count, s
       case 1: views.push_back({between(p, q, Rational(static_cast<long>(random.between(-3, 6)), 3))}); break;
       default: views.push_back({walk = between(walk, between(p, q, 2), Rational(1, 16))}); break;
     }
-    for (Rational& x : views.back().at) x.canonicalize(), x = exact(nearest_double(x));
+    for (Rational& x : views.back().at) {
+      x.canonicalize();
+      x = exact(nearest_double(x));
+    }
   }
   return views;
 }

@@ -130,7 +130,9 @@ std::optional<report::Example> example_of(const report::Row& row, const Judge_ca
   const Case_options as_programs_get_it{case_question(row.who.question), false, true};
   const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
     judge::Query query = asked.query;
-    query.question = as_programs_get_it.question, query.eye = smaller.eye, query.source = smaller.source;
+    query.question = as_programs_get_it.question;
+    query.eye = smaller.eye;
+    query.source = smaller.source;
     return std::make_shared<const Judge_case>(case_of(smaller.soup, query, as_programs_get_it));
   };
   const bool repeats = repeats_a_point(asked.soup);
@@ -164,9 +166,12 @@ std::optional<report::Example> example_of(const report::Row& row, const Judge_ca
   // 2. What is told of it.
   report::Example example;
   example.who = row.who;
-  example.family = row.family, example.distance = row.distance;
-  example.size = row.size, example.seed = row.smallest->seed;
-  example.faces_before = asked.soup.face_count(), example.faces = left->soup.face_count();
+  example.family = row.family;
+  example.distance = row.distance;
+  example.size = row.size;
+  example.seed = row.smallest->seed;
+  example.faces_before = asked.soup.face_count();
+  example.faces = left->soup.face_count();
   example.error = last.error;
   const std::string stem = stem_of(row.who);
   std::ostringstream text;

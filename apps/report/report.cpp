@@ -84,7 +84,8 @@ std::optional<std::size_t> size_with(const generate::Family& family, std::size_t
   constexpr std::size_t most = 1 << 20;
   std::size_t low = 0, high = 1;  // with low it has fewer
   while (faces_of(family, high) < faces) {
-    low = high, high *= 2;
+    low = high;
+    high *= 2;
     if (high > most) return std::nullopt;
   }
   while (high - low > 1) {
@@ -178,9 +179,12 @@ class Table {
     if (found == lines_.end()) {
       found = lines_.insert(lines_.end(), Line());
       report::Row& row = found->row;
-      row.unit = unit_.number, row.who = who;
-      row.family = unit_.group.family, row.distance = unit_.group.distance;
-      row.size = unit_.size, row.seed = seed_;
+      row.unit = unit_.number;
+      row.who = who;
+      row.family = unit_.group.family;
+      row.distance = unit_.group.distance;
+      row.size = unit_.size;
+      row.seed = seed_;
     }
     report::Row& row = found->row;
     ++row.cases;
@@ -467,7 +471,8 @@ Exit run(const Report_arguments& given) {
   }
   report.asked = asked_json(a);
   report.contents = contents;
-  report.shard = shard, report.shards = shards;
+  report.shard = shard;
+  report.shards = shards;
   report.units = units.size();
   for (const std::string& name : a.questions) report.questions.push_back({name, report_question(name).error_means});
   bool broken = false;

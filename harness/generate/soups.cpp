@@ -83,7 +83,8 @@ Polygon_soup slivers(std::size_t n, std::uint64_t seed) {
   for (std::size_t k = 0; k < n / 10; ++k) {
     Corner a, b, c;
     for (bool is_long = false, has_area = false; !is_long || !has_area;) {
-      a = any(), b = any();
+      a = any();
+      b = any();
       const std::int64_t weight = random.between(1, 15);
       is_long = has_area = false;
       Corner off;  // 16 times the way from the line to c

@@ -146,7 +146,8 @@ std::optional<Refutation> hidden_face(const std::vector<Flat_piece>& pieces, con
         for (std::size_t x = 0; x < 3; ++x) line.to[x] = (2 * line.to[x] + piece.corners[k - 1][x]) / 3;
       const auto met = first_met(pieces, from, line.to);
       if (!met) continue;
-      line.by = met->first, line.at = met->second;
+      line.by = met->first;
+      line.at = met->second;
       line.words = "on the way from " + words_of(from) + " to " + words_of(line.to) + " on " + face_words(face) + ", " +
                    face_words(met->first) + " is met at " + words_of(met->second);
       return line;
@@ -321,7 +322,8 @@ Explanation explain_weak(const Polygon_soup& soup, const Query& query, const Gra
     of_shown = hidden_face(pieces, from, face, query.two_sided, "the middle of the source");
     if (behind && of_shown) {
       of_shown->words = face_words(face) + " is behind the source, or in its plane";
-      of_shown->by.reset(), of_shown->at.reset();
+      of_shown->by.reset();
+      of_shown->at.reset();
     } else if (of_shown) {
       of_shown->words += "; that no other line reaches it is proved";
     }

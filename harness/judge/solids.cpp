@@ -128,7 +128,10 @@ class Edge_balance {
  public:
   void add(std::uint32_t from, std::uint32_t to, int times) {
     if (from == to) return;
-    if (from > to) std::swap(from, to), times = -times;
+    if (from > to) {
+      std::swap(from, to);
+      times = -times;
+    }
     if ((edges_[{from, to}] += times) == 0) edges_.erase({from, to});
   }
   const std::map<Directed_edge, int>& edges() const { return edges_; }

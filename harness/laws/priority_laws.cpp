@@ -168,7 +168,10 @@ std::optional<Pixel_view> any_view(const Posed_scene& posed, const std::vector<F
     for (std::size_t k = 0; k < 3; ++k) (*d)[k] = nearest_double(exactly[k]);
   }
   if (random.chance(1, 2))  // narrow, so that most pixels are of what is looked at
-    for (std::size_t k = 0; k < 3; ++k) view.right[k] /= 8, view.up[k] /= 8;
+    for (std::size_t k = 0; k < 3; ++k) {
+      view.right[k] /= 8;
+      view.up[k] /= 8;
+    }
   for (const double x : {view.ray(0, 0)[0], view.ray(0, 0)[1], view.ray(0, 0)[2]})
     if (!std::isfinite(4 * x)) return std::nullopt;
   return view;

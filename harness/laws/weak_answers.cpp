@@ -134,7 +134,8 @@ Outcome conservatively(const Posed_scene& posed, const Answer& answer, Random& r
   const Occluders occluders(scene);
   const std::vector<Points> pieces = weak_flats::polygons(scene);
   Conservative_options options;
-  options.threads = 1, options.two_sided = two_sided;
+  options.threads = 1;
+  options.two_sided = two_sided;
   const Weakly_visible found = possibly_visible(occluders, {weak_source(occluders, posed.source)}, options);
   // 2. Its proofs.
   const Verdict verdict = verify_weak(soup, weak_certificate(scene, {posed.source}, two_sided, found));

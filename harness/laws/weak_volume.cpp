@@ -75,7 +75,8 @@ std::optional<Body> body_of(const Points& points, Random& random) {
     Exact_point low, high;
     for (std::size_t k = 0; k < 3; ++k) {
       const Rational a = any()[k], b = any()[k];
-      low[k] = std::min(a, b), high[k] = std::max(a, b);
+      low[k] = std::min(a, b);
+      high[k] = std::max(a, b);
       if (low[k] == high[k]) return std::nullopt;
     }
     body.faces = generate::box(low, high);

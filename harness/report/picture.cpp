@@ -99,8 +99,12 @@ void draw(Svg& svg, double x, const Panel& panel) {
   double least = 1, most = 0, least_error = 1, most_error = 0;
   for (const auto& of_one : panel.points)
     for (const Panel_point& p : of_one) {
-      least = std::min(least, p.seconds), most = std::max(most, p.seconds);
-      if (p.error > 0) least_error = std::min(least_error, p.error), most_error = std::max(most_error, p.error);
+      least = std::min(least, p.seconds);
+      most = std::max(most, p.seconds);
+      if (p.error > 0) {
+        least_error = std::min(least_error, p.error);
+        most_error = std::max(most_error, p.error);
+      }
     }
   const double x0 = std::floor(2 * std::log10(std::max(least, 1e-9))) / 2,
                x1 = std::max(x0 + 0.5, std::ceil(2 * std::log10(std::max(most, 1e-9))) / 2);

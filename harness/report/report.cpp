@@ -172,7 +172,8 @@ Report report_from_json(const nlohmann::json& document) {
   const nlohmann::json& shard = list(document, "shard");
   if (shard.size() != 2 || !shard[0].is_number_unsigned() || !shard[1].is_number_unsigned() || shard[0] >= shard[1])
     throw std::invalid_argument("no report: \"shard\" is none");
-  report.shard = shard[0].get<std::uint32_t>(), report.shards = shard[1].get<std::uint32_t>();
+  report.shard = shard[0].get<std::uint32_t>();
+  report.shards = shard[1].get<std::uint32_t>();
   report.units = member<std::size_t>(document, "units");
   report.open = member<std::size_t>(document, "open");
   const auto result = member<nlohmann::json>(document, "result");
@@ -221,7 +222,8 @@ Report merged(const std::vector<Report>& parts) {
     if (there.count(s) == 0)
       throw std::invalid_argument("shard " + std::to_string(s) + " of " + std::to_string(all.shards) +
                                   " is missing; run it, and merge again");
-  all.shard = 0, all.shards = 1;
+  all.shard = 0;
+  all.shards = 1;
   std::stable_sort(all.rows.begin(), all.rows.end(), [](const Row& a, const Row& b) { return a.unit < b.unit; });
 
   // Of each contender the example of its smallest wrong case, which its shard had for its smallest one.
@@ -249,8 +251,11 @@ std::vector<Summary> summaries(const std::vector<Row>& rows) {
     }
     Summary& s = all[place];
     ++s.rows;
-    s.cases += row.cases, s.wrong += row.wrong, s.abstained += row.abstained;
-    s.crashed += row.crashed, s.stopped += row.stopped;
+    s.cases += row.cases;
+    s.wrong += row.wrong;
+    s.abstained += row.abstained;
+    s.crashed += row.crashed;
+    s.stopped += row.stopped;
     if (row.seconds) seconds[place].push_back(*row.seconds);
     s.worst_seconds = std::max(s.worst_seconds, row.worst_seconds);
     s.peak_bytes = std::max(s.peak_bytes, row.peak_bytes);

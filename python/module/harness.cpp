@@ -203,7 +203,8 @@ py::dict explained(const Case& asked, const Graded& graded, const std::string& c
 Case reduced(const Case& asked, const Case_options& options, const py::function& fails, double seconds) {
   const auto of = [&](const generate::Posed_scene& scene) {
     judge::Query query = asked.query;
-    query.eye = scene.eye, query.source = scene.source;
+    query.eye = scene.eye;
+    query.source = scene.source;
     return judge::case_of(scene.soup, query, options);
   };
   generate::Posed_scene scene;
@@ -251,7 +252,9 @@ class Function_subject {
         const Case asked = of(scene);
         if (!asked.not_asked.empty()) return harness::Outcome::not_applicable();
         generate::Posed_scene prepared;
-        prepared.soup = asked.soup, prepared.eye = asked.query.eye, prepared.source = asked.query.source;
+        prepared.soup = asked.soup;
+        prepared.eye = asked.query.eye;
+        prepared.source = asked.query.source;
         try {
           return run(prepared, answer, random);
         } catch (const Not_asked&) {

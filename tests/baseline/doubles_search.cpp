@@ -20,7 +20,8 @@ Weak_status past_two_plates(double gap, double across = 0) {
     else soup.add_face({d, c, b, a});
   };
   add(-1, 1, 2, 2, false);
-  add(-4, 0, 1, 1 + across, true), add(gap, 4, 1, 1, true);
+  add(-4, 0, 1, 1 + across, true);
+  add(gap, 4, 1, 1, true);
   const Scene scene(soup);
   const Occluders occluders(scene);
   const Weak_faces found = visible_by_doubles(
@@ -56,7 +57,9 @@ TEST(Doubles_search, sees_in_piles_of_random_squares_what_the_exact_search_sees)
     const Weak_faces doubles = visible_by_doubles(occluders, sources), exact = weakly_visible(occluders, sources);
     const Weak_errors errors = weak_errors(exact, doubles);
     EXPECT_EQ(errors.wrongly_visible + errors.wrongly_hidden, 0u) << round;
-    visible += exact.visible.size(), hidden += exact.hidden.size(), undecided += errors.undecided;
+    visible += exact.visible.size();
+    hidden += exact.hidden.size();
+    undecided += errors.undecided;
   }
   EXPECT_GT(visible, 30u);
   EXPECT_GT(hidden, 10u);

@@ -55,7 +55,8 @@ TEST(Ray_sampling, sees_nothing_that_is_proved_hidden_in_a_pile_of_squares) {
     EXPECT_TRUE(proved.undecided.empty());
     for (const Face_id face : sampled)
       EXPECT_TRUE(std::binary_search(proved.visible.begin(), proved.visible.end(), face)) << face;
-    seen += sampled.size(), missed += proved.visible.size() - sampled.size();
+    seen += sampled.size();
+    missed += proved.visible.size() - sampled.size();
   }
   EXPECT_GT(seen, 50u);
   EXPECT_GT(missed, 0u);

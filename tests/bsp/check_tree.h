@@ -13,7 +13,8 @@ struct Flat {
   Rational d;
   Flat(const Built& built, Plane plane) {
     const std::array<Rational, 4> h = built.scene.file_coefficients(plane);
-    n = {h[0], h[1], h[2]}, d = h[3];
+    n = {h[0], h[1], h[2]};
+    d = h[3];
   }
   int side(const Exact_point& p) const { return sgn(Rational(dot(n, p) + d)); }
 };
@@ -42,11 +43,14 @@ inline void check_tree(const Built& built, std::size_t forced = 0) {
     const Tree::Node& node = tree.nodes[static_cast<std::size_t>(number)];
     ASSERT_EQ(static_cast<std::size_t>(number), visited++) << "nodes in preorder, front first";
     ASSERT_EQ(node.first, first);
-    first += node.count, depth = std::max(depth, level), empty += node.count == 0;
+    first += node.count;
+    depth = std::max(depth, level);
+    empty += node.count == 0;
     for (const auto& [child, front] : {std::pair(node.behind, false), std::pair(node.front, true)}) {
       if (child == Tree::leaf) continue;
       ASSERT_LT(static_cast<std::size_t>(child), tree.nodes.size());
-      parent[static_cast<std::size_t>(child)] = number, in_front[static_cast<std::size_t>(child)] = front;
+      parent[static_cast<std::size_t>(child)] = number;
+      in_front[static_cast<std::size_t>(child)] = front;
       stack.emplace_back(child, level + 1);
     }
     const Flat plane(built, node.plane);

@@ -36,7 +36,8 @@ TEST(Example, of_the_documentation_page_prints_what_it_says) {
                d = soup.add_point(0.0, 1.0, z);
     soup.add_face({a, b, c, d});
   };
-  square(1), square(0);
+  square(1);
+  square(0);
   std::ostringstream out;
   example(soup, out);
   EXPECT_EQ(out.str(),

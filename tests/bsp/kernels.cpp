@@ -102,7 +102,8 @@ void expect_an_end(const Polygon_soup& soup, std::uint64_t seed) {
   const Scene scene(soup);
   const Point_traits<K> traits(scene);
   Bsp_options options;
-  options.seed = seed, options.threads = seed % 4 == 0 ? 2 : 1;
+  options.seed = seed;
+  options.threads = seed % 4 == 0 ? 2 : 1;
   const auto tree = build_bsp(traits, options);
   EXPECT_LE(tree.fragments.size() + tree.counters.degenerate, tree.counters.pieces + tree.counters.splits);
   EXPECT_EQ(tree.counters.pieces, scene.pieces().size());

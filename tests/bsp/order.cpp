@@ -43,7 +43,8 @@ TEST(Order, an_empty_scene_has_an_empty_tree_and_order) {
 TEST(Order, stacked_squares_come_from_below_for_an_eye_above_and_the_other_way_round_from_below) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Bsp_options options = serial();
-    options.seed = seed, options.candidates = 1 + static_cast<unsigned>(seed % 3);
+    options.seed = seed;
+    options.candidates = 1 + static_cast<unsigned>(seed % 3);
     const Built built(soup_of({rectangle(0, 1, 0, 1, 0), reversed(rectangle(0, 1, 0, 1, 1)), rectangle(0, 1, 0, 1, 2),
                                rectangle(0, 1, 0, 1, 3)}),
                       options);
@@ -78,7 +79,8 @@ TEST(Order, three_bars_in_a_cycle_are_cut_so_that_at_each_overlap_the_upper_bar_
   };
   for (std::uint64_t seed = 0; seed < 30; ++seed) {
     Bsp_options options = serial();
-    options.seed = seed, options.candidates = 1 + static_cast<unsigned>(seed % 4);
+    options.seed = seed;
+    options.candidates = 1 + static_cast<unsigned>(seed % 4);
     const Built built(soup_of(bars), options);
     const Exact_point eye = at(3, 2, 1000000);
     ASSERT_TRUE(verified(built, eye));

@@ -122,7 +122,10 @@ Exact_ray random_ray(const Built& built, Random& random) {
       ray.origin = along(c[0], ratio(random.between(-3, 3), 2), minus(c[2], c[0]));
       ray.direction = minus(c[random.below(c.size())], c[random.below(c.size())]);
       break;
-    case 4: ray.direction = {0, 0, 0}, ray.direction[random.below(3)] = random.chance(1, 2) ? 1 : ratio(-2, 3); break;
+    case 4:
+      ray.direction = {0, 0, 0};
+      ray.direction[random.below(3)] = random.chance(1, 2) ? 1 : ratio(-2, 3);
+      break;
     default: ray.direction = lattice_point(random);
   }
   if (ray.direction == at(0, 0, 0)) ray.direction = at(0, 0, 1);
@@ -141,14 +144,16 @@ TEST(Query, agrees_with_every_face_by_itself_on_1000_degenerate_scenes) {
       Predicate_counts counts;
       const std::vector<Face_id> faces = faces_at(built.traits, built.tree, p, counts);
       ASSERT_EQ(faces, everything.faces_at(p));
-      on += !faces.empty(), shared += faces.size() > 1;
+      on += !faces.empty();
+      shared += faces.size() > 1;
       expect_leaf(built, p, find_leaf(built.traits, built.tree, p, counts));
       EXPECT_TRUE(counts.total() > 0 || built.tree.nodes.empty());
 
       const Exact_ray ray = random_ray(built, random);
       const auto hit = first_hit(built.traits, built.tree, ray);
       ASSERT_TRUE(same(hit, everything.first_hit(ray)));
-      hits += hit.has_value(), at_origin += hit && hit->t == 0;
+      hits += hit.has_value();
+      at_origin += hit && hit->t == 0;
     }
     if (testing::Test::HasFailure()) return;
   }
@@ -246,7 +251,9 @@ std::vector<Points> box(long low, long high, bool inwards = false) {
       for (const auto& [a, b] :
            {std::pair(low, low), std::pair(high, low), std::pair(high, high), std::pair(low, high)}) {
         Exact_point p;
-        p[axis] = end, p[(axis + 1) % 3] = a, p[(axis + 2) % 3] = b;
+        p[axis] = end;
+        p[(axis + 1) % 3] = a;
+        p[(axis + 2) % 3] = b;
         face.push_back(p);
       }
       faces.push_back((end == high) != inwards ? face : reversed(face));
@@ -331,7 +338,8 @@ TEST(Query, a_menger_sponge_has_its_holes) {
           middle += shifted > 1 && shifted < 2;
         }
         cell &= middle < 2;
-        some |= cell, all &= cell;
+        some |= cell;
+        all &= cell;
       }
       return all ? Location::inside : some ? Location::on : Location::outside;
     });
@@ -349,7 +357,8 @@ TEST(Query, a_point_is_in_a_convex_body_iff_it_is_behind_all_its_faces) {
     for (const Piece& piece : built.scene.pieces()) {
       const Points corners = built.piece_corners(piece);
       const Rational side = dot(normal_of(corners), minus(p, corners[0]));
-      inside &= side<0, outside |= side> 0;
+      inside &= side < 0;
+      outside |= side > 0;
     }
     Predicate_counts counts;
     const Location found = locate_point(built.traits, built.tree, p, true, counts).location;

@@ -46,7 +46,8 @@ TEST(Tree, is_sound_for_500_small_degenerate_scenes) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed + 10000);
     Bsp_options options = serial();
-    options.seed = seed, options.candidates = static_cast<unsigned>(random.below(6));
+    options.seed = seed;
+    options.candidates = static_cast<unsigned>(random.below(6));
     const Built built(moved_somewhere(random_soup(random, 10), random), options);
     check_tree(built);
     if (testing::Test::HasFatalFailure()) return;
@@ -128,7 +129,8 @@ TEST(Tree, prefers_planes_that_split_nothing) {
   std::vector<Points> faces{rectangle(-1, 21, -1, 1, 0)};
   for (int i = 0; i < 20; ++i) faces.push_back({at(i, 0, 1), at(i, ratio(1, 2), 1), at(i, 0, 2)});
   Bsp_options options = serial();
-  options.candidates = 100, options.split_weight = 100;
+  options.candidates = 100;
+  options.split_weight = 100;
   EXPECT_EQ(Built(soup_of(faces), options).tree.counters.splits, 0u);
   options.split_weight = 0;
   const Built balanced(soup_of(faces), options);
@@ -150,7 +152,8 @@ TEST(Tree, planes_given_first_are_the_topmost_on_every_way) {
     if (number == Tree::leaf || depth >= options.first.size()) continue;
     const Tree::Node& node = built.tree.nodes[static_cast<std::size_t>(number)];
     ASSERT_EQ(node.plane, options.first[depth]);
-    stack.emplace_back(node.front, depth + 1), stack.emplace_back(node.behind, depth + 1);
+    stack.emplace_back(node.front, depth + 1);
+    stack.emplace_back(node.behind, depth + 1);
   }
   check_tree(built, 1 + 2 + 4 + 8);
   EXPECT_TRUE(verified(built, at(ratio(1, 2), ratio(1, 3), 5)));
@@ -224,7 +227,9 @@ TEST(Tree, progress_counts_every_fragment_once) {
       std::size_t calls = 0, most = 0, all = 0;
       options.progress = [&](std::size_t done, std::size_t of) {
         const std::lock_guard lock(mutex);
-        ++calls, most = std::max(most, done), all = of;
+        ++calls;
+        most = std::max(most, done);
+        all = of;
       };
       const Built built(soup, options);
       EXPECT_EQ(all, built.scene.pieces().size());
@@ -248,7 +253,8 @@ TEST(Tree, a_free_plane_that_leaves_everything_on_one_side_is_not_taken) {
     faces.push_back({at(x, -200000, -200000), at(x, 200000, -200000), at(x, 200000, 200000), at(x, -200000, 200000)});
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Bsp_options options = serial();
-    options.seed = seed, options.candidates = 1;
+    options.seed = seed;
+    options.candidates = 1;
     const Built built(soup_of(faces), options);
     EXPECT_LE(built.tree.counters.depth, 42u);
     EXPECT_EQ(built.tree.counters.fragments, 42u + built.tree.counters.splits);

@@ -14,7 +14,8 @@ namespace {
 
 Bsp_options random_options(Random& random) {
   Bsp_options options = serial();
-  options.seed = random.below(1000), options.candidates = static_cast<unsigned>(random.below(6)),
+  options.seed = random.below(1000);
+  options.candidates = static_cast<unsigned>(random.below(6));
   options.split_weight = static_cast<unsigned>(random.below(8));
   options.sample = static_cast<unsigned>(random.below(50));
   return options;
@@ -34,8 +35,10 @@ TEST(Verified, orders_of_2400_small_degenerate_scenes) {
           traverse(built.traits, built.tree, built.traits.eye(eye), Direction::back_to_front, [](const Drawn&, Sign) {
           }).on_planes;
     }
-    splits += built.tree.counters.splits, set_aside += built.scene.set_aside().size();
-    concave += built.scene.concave().size(), non_planar += built.scene.non_planar().size();
+    splits += built.tree.counters.splits;
+    set_aside += built.scene.set_aside().size();
+    concave += built.scene.concave().size();
+    non_planar += built.scene.non_planar().size();
     for (const Tree::Node& node : built.tree.nodes) shared += node.count > 1;
   }
   // The generator makes what it is meant to make.

@@ -145,7 +145,8 @@ TEST(Visible_errors, of_doubles_are_below_those_of_floats_in_general_position) {
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     Case c(Scene(generate::soup(60, 0.2, seed)), at(ratio(1, 2), ratio(1, 3), ratio(2, 5)));
     const Visible_errors d = c.of_numbers<double>(), f = c.of_numbers<float>();
-    doubles += d.wrong + d.gaps + d.overlaps, floats += f.wrong + f.gaps + f.overlaps;
+    doubles += d.wrong + d.gaps + d.overlaps;
+    floats += f.wrong + f.gaps + f.overlaps;
     EXPECT_EQ(d.wrongly_visible + d.wrongly_hidden + d.missing + d.not_finite, 0u);
   }
   EXPECT_LT(doubles, 1e-11);

@@ -109,10 +109,17 @@ TEST(Convex_parts, comb) {
   Loop loop;
   const long teeth = 500;
   const auto add = [&](long x, long y) {
-    loop.push_back(static_cast<std::uint32_t>(p.points.size())), p.points.push_back({Integer(x), Integer(y)});
+    loop.push_back(static_cast<std::uint32_t>(p.points.size()));
+    p.points.push_back({Integer(x), Integer(y)});
   };
-  add(0, -1), add(2 * teeth, -1);
-  for (long i = teeth; i > 0; --i) add(2 * i, 10), add(2 * i - 1, 10), add(2 * i - 1, 0), add(2 * i - 2, 0);
+  add(0, -1);
+  add(2 * teeth, -1);
+  for (long i = teeth; i > 0; --i) {
+    add(2 * i, 10);
+    add(2 * i - 1, 10);
+    add(2 * i - 1, 0);
+    add(2 * i - 2, 0);
+  }
   p.loops = {loop};
   expect_simple(p, 2 * teeth + 1, false);
 }
@@ -127,7 +134,8 @@ TEST(Convex_parts, rectangular_spiral) {
     // The inner line is offset to the left of the path by one.
     const int d = k % 4, e = (k + 3) % 4;
     inner.emplace_back(x + (k == 0 ? 0 : -dy[d] - dy[e]), y + (k == 0 ? 1 : dx[d] + dx[e]));
-    x += length * dx[d], y += length * dy[d];
+    x += length * dx[d];
+    y += length * dy[d];
     if (k > 0) length -= 2;
   }
   outer.insert(outer.end(), inner.rbegin(), inner.rend());
@@ -243,7 +251,10 @@ TEST(Convex_parts, does_not_depend_on_size_or_place_of_the_coordinates) {
     Polygon large = small;
     const Integer scale = (Integer(1) << bits) + 12345, x = (Integer(1) << (2 * bits)) + 7,
                   y = -(Integer(1) << bits) - 99;
-    for (Planar_point& p : large.points) p.x = p.x * scale + x, p.y = p.y * scale + y;
+    for (Planar_point& p : large.points) {
+      p.x = p.x * scale + x;
+      p.y = p.y * scale + y;
+    }
     EXPECT_EQ(parts_of(large).pieces, expected) << bits;
     EXPECT_EQ(triangles_of(large).pieces, expected_triangles) << bits;
   }

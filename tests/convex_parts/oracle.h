@@ -154,9 +154,12 @@ inline ::testing::AssertionResult is_partition(const Polygon& polygon, const Con
     if (exhaustive)
       for (std::size_t i = 2; i < n; ++i) {
         Sample s;
-        for (const std::uint32_t p : {piece[0], piece[i - 1], piece[i]})
-          s.x += polygon.points[p].x, s.y += polygon.points[p].y;
-        s.x /= 3, s.y /= 3;
+        for (const std::uint32_t p : {piece[0], piece[i - 1], piece[i]}) {
+          s.x += polygon.points[p].x;
+          s.y += polygon.points[p].y;
+        }
+        s.x /= 3;
+        s.y /= 3;
         if (winding(polygon, s) != 1) return fail() << "piece " << k << " is not inside";
       }
     if (exhaustive)

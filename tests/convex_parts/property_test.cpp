@@ -171,10 +171,14 @@ TEST(Convex_parts_property, walks_on_a_small_lattice) {
         const int turns = random() % 4 == 0 ? static_cast<int>(random() % 8) : 1 + static_cast<int>(random() % 2);
         for (int t = 0; t < turns; ++t) {
           const int ex = dx - dy, ey = dx + dy;
-          dx = (ex > 0) - (ex < 0), dy = (ey > 0) - (ey < 0);
+          dx = (ex > 0) - (ex < 0);
+          dy = (ey > 0) - (ey < 0);
         }
       }
-      if (x + dx >= 0 && x + dx < side && y + dy >= 0 && y + dy < side) x += dx, y += dy;
+      if (x + dx >= 0 && x + dx < side && y + dy >= 0 && y + dy < side) {
+        x += dx;
+        y += dy;
+      }
     }
     if (random() % 3 == 0)
       p.loops.push_back({static_cast<std::uint32_t>(random() % 9), static_cast<std::uint32_t>(random() % 9),

@@ -50,7 +50,8 @@ Plane_list dodecahedron() {
     for (const long s : {5, -5})
       for (const long t : {8, -8}) {
         normals.push_back({0, 0, 0});
-        normals.back()[(k + 1) % 3] = s, normals.back()[(k + 2) % 3] = t;
+        normals.back()[(k + 1) % 3] = s;
+        normals.back()[(k + 2) % 3] = t;
       }
   return planes_of(normals);
 }
@@ -221,7 +222,9 @@ TEST(View_cells, are_the_sets_that_elimination_finds_on_300_degenerate_sets_of_p
                                          : degenerate_planes(random.below(k % 20 == 1 ? 8 : 7), random);
     ASSERT_TRUE(right_cells(planes)) << "planes " << k;
     const Sets all = sets_of(view_cells(planes)), open = sets_of(view_cells(planes), true);
-    flat += all != open, bodies += open.contains(0), without_none += !all.contains(0);
+    flat += all != open;
+    bodies += open.contains(0);
+    without_none += !all.contains(0);
   }
   EXPECT_GT(flat, test_scenes::least(40u));
   EXPECT_GT(bodies, test_scenes::least(60u));
@@ -387,7 +390,10 @@ struct Assignments {
     std::vector<std::uint32_t> left;
     Rational weight = 0, best = -1;
     for (const Weighted_view& view : views)
-      if ((view.on_view & on) == on && (view.on_view & off) == 0) left.push_back(view.on_view), weight += view.weight;
+      if ((view.on_view & on) == on && (view.on_view & off) == 0) {
+        left.push_back(view.on_view);
+        weight += view.weight;
+      }
     if (left.size() < 2) best = 0;
     if (left.size() > 2) sets.insert(left);
     for (unsigned face = 0; left.size() > 1 && face < faces; ++face) {
@@ -564,8 +570,10 @@ TEST(Decision_tree, has_the_bound_of_the_best_binary_tree) {
     Views views;
     std::vector<Rational> weights;
     const std::uint64_t most = random.chance(1, 2) ? 3 : 100, count = 1 + random.below(9);
-    for (std::uint32_t on = 0; on < count; ++on)
-      weights.push_back(random.between(on == 0, static_cast<long>(most))), views.push_back({on, weights.back()});
+    for (std::uint32_t on = 0; on < count; ++on) {
+      weights.push_back(random.between(on == 0, static_cast<long>(most)));
+      views.push_back({on, weights.back()});
+    }
     ASSERT_EQ(least_tests(views, 4).bound, least_of_any_tree(weights) / weight_of(views)) << "likelihood " << k;
   }
 }
@@ -594,7 +602,8 @@ TEST(Decision_tree, run_from_any_eye_finds_all_faces_that_are_on_view) {
       if (expected != 0) {
         ASSERT_EQ(tree.run(is_on_view), expected) << "planes " << k << ", eye " << eye;
       }
-      ++eyes, none += expected == 0;
+      ++eyes;
+      none += expected == 0;
       in_planes += std::any_of(planes.begin(), planes.end(), [&](const Plane4& h) { return value_at(h, p) == 0; });
     }
   }

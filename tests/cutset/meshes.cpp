@@ -70,7 +70,10 @@ TEST_P(Mesh, every_frame_equals_a_test_of_every_face) {
   Cut_set_tracker tracker(stage.traits, stage.graph);
   const auto box = stage.scene.box();
   Exact_point centre, half;
-  for (std::size_t k = 0; k < 3; ++k) centre[k] = (box[0][k] + box[1][k]) / 2, half[k] = (box[1][k] - box[0][k]) / 2;
+  for (std::size_t k = 0; k < 3; ++k) {
+    centre[k] = (box[0][k] + box[1][k]) / 2;
+    half[k] = (box[1][k] - box[0][k]) / 2;
+  }
   const char* const wanted = std::getenv("SIGHTLINE_LONG");
   const std::size_t frames = wanted != nullptr ? static_cast<std::size_t>(std::max(300, std::atoi(wanted)))
                                                : test_scenes::sample(std::size_t{300});
@@ -94,18 +97,24 @@ TEST_P(Mesh, every_frame_equals_a_test_of_every_face) {
     for (std::int64_t k = 0; k < 40; ++k) {
       const auto [x, y] = generate::circle_point(static_cast<std::uint64_t>((begin + k) % circle), circle, 1 << 20);
       Viewpoint view{centre, false};
-      view.at[0] += half[0] * radius * Rational(x, 1 << 20), view.at[1] += half[1] * radius * Rational(y, 1 << 20),
-          view.at[2] += half[2] * height;
+      view.at[0] += half[0] * radius * Rational(x, 1 << 20);
+      view.at[1] += half[1] * radius * Rational(y, 1 << 20);
+      view.at[2] += half[2] * height;
       ASSERT_TRUE(move(view)) << "frame " << frame;
-      if (k > 0) tests += tracker.last().tests, ++smooth;
+      if (k > 0) {
+        tests += tracker.last().tests;
+        ++smooth;
+      }
     }
     // Along an edge and beyond it, through a vertex; in a face's plane; inside; at infinity along an edge.
     const Piece& piece = stage.scene.pieces()[some(stage.scene.pieces().size())];
     const Exact_point p = corner_of(piece, 0), q = corner_of(piece, 1), r = corner_of(piece, 2);
     for (int k = -2; k <= 6; ++k) {
       Viewpoint on_edge{p, false}, in_plane{p, false};
-      for (std::size_t a = 0; a < 3; ++a)
-        on_edge.at[a] += (q[a] - p[a]) * Rational(k, 4), in_plane.at[a] += (q[a] - p[a]) * (k + 3) - (r[a] - p[a]) * 5;
+      for (std::size_t a = 0; a < 3; ++a) {
+        on_edge.at[a] += (q[a] - p[a]) * Rational(k, 4);
+        in_plane.at[a] += (q[a] - p[a]) * (k + 3) - (r[a] - p[a]) * 5;
+      }
       ASSERT_TRUE(move(on_edge)) << "frame " << frame;
       ASSERT_TRUE(move(in_plane)) << "frame " << frame;
     }
@@ -135,13 +144,16 @@ TEST(Solids, are_triangulated_where_their_faces_are_not_planar_and_then_mostly_d
   for (const std::string& name : collected()) {
     if (!name.ends_with(".json")) continue;
     const Stage stage(read_solid(std::filesystem::path(SIGHTLINE_SCENES_DIR) / name));
-    ++solids, convex += stage.graph.is_convex(0), planar += stage.scene.non_planar().empty();
+    ++solids;
+    convex += stage.graph.is_convex(0);
+    planar += stage.scene.non_planar().empty();
     if (stage.scene.non_planar().empty()) {
       EXPECT_TRUE(stage.graph.is_convex(0)) << name;
     }
   }
-  RecordProperty("solids", static_cast<int>(solids)), RecordProperty("convex", static_cast<int>(convex)),
-      RecordProperty("planar", static_cast<int>(planar));
+  RecordProperty("solids", static_cast<int>(solids));
+  RecordProperty("convex", static_cast<int>(convex));
+  RecordProperty("planar", static_cast<int>(planar));
   std::cout << solids << " solids, " << planar << " with planar faces only, " << convex << " convex\n";
   EXPECT_GE(convex, planar);
 }

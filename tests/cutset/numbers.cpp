@@ -30,14 +30,16 @@ TEST(Watch_list, tests_what_ran_out_and_nothing_else) {
   const auto set = [&](std::uint32_t i, Watched_node& w) {
     w.until =
         path + static_cast<double>(between(random, 0, 8)) * std::ldexp(1.0, static_cast<int>(between(random, -4, 2)));
-    w.on = random() % 2 == 0, w.at_cut = random() % 3 > 0;
+    w.on = random() % 2 == 0;
+    w.at_cut = random() % 3 > 0;
     list.set(w.place, i, Tester::Row{w.row[0], w.row[1], w.row[2], w.row[3]}, w.on, w.until, w.at_cut);
   };
   for (int move = 0; move < 3000; ++move) {
     // More at first than later: places are given up, and taken again.
     for (std::int64_t n = between(random, 0, move < 1500 ? 12 : 4); n > 0; --n, ++node) {
       Watched_node& w = kept[node];
-      w.place = list.take(), w.row = {small(), small(), small(), small()};
+      w.place = list.take();
+      w.row = {small(), small(), small(), small()};
       set(node, w);
     }
     for (std::int64_t n = between(random, 0, 2); n > 0 && !kept.empty(); --n) {
@@ -51,7 +53,10 @@ TEST(Watch_list, tests_what_ran_out_and_nothing_else) {
     }
     path += static_cast<double>(between(random, 0, 4)) / 4;
     Tester::Eye eye{};
-    eye.x = small(), eye.y = small(), eye.z = small(), eye.w = move % 5 > 0,
+    eye.x = small();
+    eye.y = small();
+    eye.z = small();
+    eye.w = move % 5 > 0;
     eye.bound = static_cast<double>(between(random, 0, 3));
     std::vector<std::uint32_t> open, expected;
     const Watch_list::Confirmed result = list.test(eye, path, open);
@@ -63,24 +68,36 @@ TEST(Watch_list, tests_what_ran_out_and_nothing_else) {
       }
       const double height = w.row[0] * eye.x + w.row[1] * eye.y + w.row[2] * eye.z + w.row[3] * eye.w;
       if (w.on ? height > eye.bound : height < -eye.bound) {
-        ++tests, tests_away += !w.at_cut;
+        ++tests;
+        tests_away += !w.at_cut;
         w.until = std::max(path, (path + (std::fabs(height) - eye.bound)) * (1 - 0x1p-52));
       } else {
-        expected.push_back(i), unclear += std::fabs(height) <= eye.bound;
+        expected.push_back(i);
+        unclear += std::fabs(height) <= eye.bound;
       }
     }
     ASSERT_EQ(sorted(open), expected) << move;
     ASSERT_EQ(result.nodes, tests);
     ASSERT_EQ(result.away, tests_away);
-    most = std::max(most, kept.size()), opened += open.size(), confirmed += tests, away += tests_away;
+    most = std::max(most, kept.size());
+    opened += open.size();
+    confirmed += tests;
+    away += tests_away;
     for (const std::uint32_t i : open) {
       Watched_node& w = kept.at(i);
-      if (random() % 8 == 0) list.remove(w.place), kept.erase(i);
-      else if (random() % 2 == 0) set(i, w);
-      else w.until = path, list.set_until(w.place, path);
+      if (random() % 8 == 0) {
+        list.remove(w.place);
+        kept.erase(i);
+      } else if (random() % 2 == 0) set(i, w);
+      else {
+        w.until = path;
+        list.set_until(w.place, path);
+      }
     }
-    if (!kept.empty())
-      kept.begin()->second.at_cut ^= true, list.set_at_cut(kept.begin()->second.place, kept.begin()->second.at_cut);
+    if (!kept.empty()) {
+      kept.begin()->second.at_cut ^= true;
+      list.set_at_cut(kept.begin()->second.place, kept.begin()->second.at_cut);
+    }
   }
   EXPECT_GT(most, 600u) << "more than a group of blocks";
   EXPECT_LT(kept.size(), most / 2);
@@ -93,7 +110,8 @@ TEST(Watch_list, leaves_open_what_overflows) {
   list.set(list.take(), 7, row, true, 0, true);
   On_view<Exact_traits>::Eye eye{};
   std::vector<std::uint32_t> open;
-  eye.x = eye.y = eye.bound = std::numeric_limits<double>::infinity(), eye.w = 1;  // a height that is no number
+  eye.x = eye.y = eye.bound = std::numeric_limits<double>::infinity();
+  eye.w = 1;  // a height that is no number
   list.test(eye, 1, open);
   EXPECT_EQ(open, std::vector<std::uint32_t>{7});
 }
@@ -106,7 +124,8 @@ TEST(Tracker, notices_moves_below_the_last_bit_of_doubles) {
        {Rational(1), Rational(1 + tiny), Rational(1), Rational(1 - tiny), Rational(1 + tiny), Rational(1 - tiny)})
     for (const bool at_infinity : {false, true}) {
       const Viewpoint view{{at_infinity ? Rational(x - 1) : x, 1, 0}, at_infinity};
-      tracker.move_to({{x, 0, 0}, false}), tracker.move_to(view);
+      tracker.move_to({{x, 0, 0}, false});
+      tracker.move_to(view);
       ASSERT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, view)));
     }
   for (const Rational& x :
@@ -119,8 +138,9 @@ TEST(Tracker, notices_moves_below_the_last_bit_of_doubles) {
 
 TEST(Tracker, notices_steps_whose_squares_underflow) {
   Polygon_soup soup = box({-3, -3, -3}, {3, 3, 3}).soup();  // keeps the origin in the middle
-  soup.add_point(Rational(0), Rational(-1), Rational(-1)), soup.add_point(Rational(0), Rational(1), Rational(-1)),
-      soup.add_point(Rational(0), Rational(0), Rational(1));
+  soup.add_point(Rational(0), Rational(-1), Rational(-1));
+  soup.add_point(Rational(0), Rational(1), Rational(-1));
+  soup.add_point(Rational(0), Rational(0), Rational(1));
   soup.add_face(std::vector<Point_id>{8, 9, 10});  // x = 0
   const Stage stage(soup);
   Cut_set_tracker tracker(stage.traits, stage.graph);
@@ -159,7 +179,10 @@ TEST(Tracker, does_not_trust_a_height_beyond_its_error) {
     const std::int64_t s = between(random, -1'000'000'000'000, 1'000'000'000'000),
                        t = between(random, -1'000'000'000'000, 1'000'000'000'000), h = between(random, 1, 4);
     Lattice_eye above{{}, 1}, on{{}, 1};
-    for (std::size_t a = 0; a < 3; ++a) on.at[a] = p[a] + s * u[a] + t * v[a], above.at[a] = on.at[a] + h * n[a];
+    for (std::size_t a = 0; a < 3; ++a) {
+      on.at[a] = p[a] + s * u[a] + t * v[a];
+      above.at[a] = on.at[a] + h * n[a];
+    }
     Cut_set_tracker tracker(stage.traits, stage.graph);
     for (const Lattice_eye& eye : {above, on, above}) {
       tracker.move_to(eye.view());
@@ -189,8 +212,9 @@ TEST(Tracker, tests_no_node_twice_in_a_move) {
 
 TEST(Tracker, holds_for_one_face_alone) {
   Polygon_soup soup;
-  soup.add_point(Rational(0), Rational(0), Rational(0)), soup.add_point(Rational(1), Rational(0), Rational(0)),
-      soup.add_point(Rational(0), Rational(1), Rational(0));
+  soup.add_point(Rational(0), Rational(0), Rational(0));
+  soup.add_point(Rational(1), Rational(0), Rational(0));
+  soup.add_point(Rational(0), Rational(1), Rational(0));
   soup.add_face(std::vector<Point_id>{0, 1, 2});
   const Stage stage(soup);
   Cut_set_tracker tracker(stage.traits, stage.graph);
@@ -220,16 +244,17 @@ TEST(Tracker, walks_over_a_barrel_that_doubles_take_for_a_box) {
       }
       // The turn keeps orientation: its determinant is 27.
       const auto id = [](int ring, int k) { return static_cast<Point_id>(4 * ring + k % 4); };
-      soup.add_face(std::vector<Point_id>{3, 2, 1, 0}),
-          soup.add_face(std::vector<Point_id>{id(rings - 1, 0), id(rings - 1, 1), id(rings - 1, 2), id(rings - 1, 3)});
+      soup.add_face(std::vector<Point_id>{3, 2, 1, 0});
+      soup.add_face(std::vector<Point_id>{id(rings - 1, 0), id(rings - 1, 1), id(rings - 1, 2), id(rings - 1, 3)});
       for (int ring = 0; ring + 1 < rings; ++ring)
         for (int k = 0; k < 4; ++k)
           soup.add_face(std::vector<Point_id>{id(ring, k), id(ring, k + 1), id(ring + 1, k + 1), id(ring + 1, k)});
       if (end > 0) {
         const Point_id first = soup.point_count();
         const Rational far(Integer(1) << end);
-        soup.add_point(far, far, far), soup.add_point(far, Rational(far + 1), far),
-            soup.add_point(far, far, Rational(far + 1));
+        soup.add_point(far, far, far);
+        soup.add_point(far, Rational(far + 1), far);
+        soup.add_point(far, far, Rational(far + 1));
         soup.add_face(std::vector<Point_id>{first, first + 1, first + 2});
       }
       const Stage stage(soup);
@@ -243,9 +268,13 @@ TEST(Tracker, walks_over_a_barrel_that_doubles_take_for_a_box) {
       for (const long z : {20l, 30l, 40l, 50l, 60l})
         for (const int sense : {1, -1}) {
           const Rational height = sense * Rational(Integer(1) << z);
-          see({0, 0, -height}, false), see({0, 0, Rational(sense * 5)}, false), see({0, 0, 0}, false);
-          see({0, 0, Rational(-sense * 5)}, false), see({Rational(1, 3), Rational(1, 7), height}, false),
-              see({0, 0, Rational(-sense)}, true), see({0, 0, Rational(sense)}, true);
+          see({0, 0, -height}, false);
+          see({0, 0, Rational(sense * 5)}, false);
+          see({0, 0, 0}, false);
+          see({0, 0, Rational(-sense * 5)}, false);
+          see({Rational(1, 3), Rational(1, 7), height}, false);
+          see({0, 0, Rational(-sense)}, true);
+          see({0, 0, Rational(sense)}, true);
         }
     }
 }
@@ -256,11 +285,16 @@ TEST(Tracker, forgets_a_far_visit) {
   const auto tests_near_by = [&](bool visit) {
     Cut_set_tracker tracker(stage.traits, stage.graph);
     tracker.move_to({box[1], false});
-    if (visit)
-      tracker.move_to({{exact_decimal(1, 18), 0, exact_decimal(1, 17)}, false}), tracker.move_to({box[1], false});
+    if (visit) {
+      tracker.move_to({{exact_decimal(1, 18), 0, exact_decimal(1, 17)}, false});
+      tracker.move_to({box[1], false});
+    }
     const std::uint64_t before = tracker.counters().tests;
     Exact_point at = box[1];
-    for (int k = 0; k < 50; ++k) at[2] += Rational(1, 10000), tracker.move_to({at, false});
+    for (int k = 0; k < 50; ++k) {
+      at[2] += Rational(1, 10000);
+      tracker.move_to({at, false});
+    }
     EXPECT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, {at, false})));
     return tracker.counters().tests - before;
   };

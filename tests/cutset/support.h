@@ -64,7 +64,8 @@ inline Body hull(std::vector<Whole> points) {
         bool behind = false, front = false;
         for (std::uint32_t p = 0; p < n && !front; ++p) {
           const std::int64_t height = dot(normal, minus(points[p], points[i]));
-          front |= height > 0, behind |= height < 0;
+          front |= height > 0;
+          behind |= height < 0;
           if (height == 0) on.push_back(p);
         }
         if (front || !behind || !seen.insert(on).second) continue;

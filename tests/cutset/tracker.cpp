@@ -38,7 +38,10 @@ std::vector<Lattice_eye> path_round(const Body& body, Random& random, std::size_
                          std::int64_t wb) {  // (wa a + wb b) / (wa + wb), off the segment too
     Lattice_eye eye{{}, wa + wb};
     for (std::size_t k = 0; k < 3; ++k) eye.at[k] = wa * a[k] + wb * b[k];
-    if (eye.w < 0) eye.w = -eye.w, eye.at = {-eye.at[0], -eye.at[1], -eye.at[2]};
+    if (eye.w < 0) {
+      eye.w = -eye.w;
+      eye.at = {-eye.at[0], -eye.at[1], -eye.at[2]};
+    }
     return eye;
   };
   while (path.size() < frames) {
@@ -121,7 +124,10 @@ std::uint64_t births(const Face_graph& graph, const std::vector<bool>& before, c
       touched = touched || at_cut[cluster[k]];
       for (const Face_graph::Edge& edge : graph.edges())
         for (const auto& [a, b] : {std::pair(edge.first, edge.second), std::pair(edge.second, edge.first)})
-          if (a == cluster[k] && !seen[b] && before[b] != after[b]) seen[b] = true, cluster.push_back(b);
+          if (a == cluster[k] && !seen[b] && before[b] != after[b]) {
+            seen[b] = true;
+            cluster.push_back(b);
+          }
     }
     found += !touched;
   }
@@ -152,9 +158,12 @@ TEST(Tracker, agrees_with_testing_every_face_of_random_hulls) {
       for (std::uint32_t i = 0; i < on.size(); ++i)
         if (on[i] != before[i]) changed.push_back(i);
       ASSERT_EQ(sorted(tracker.changed()), changed);
-      before = on, ++frames;
+      before = on;
+      ++frames;
     }
-    searches += tracker.counters().searches, exact += tracker.counters().exact, found += tracker.counters().births;
+    searches += tracker.counters().searches;
+    exact += tracker.counters().exact;
+    found += tracker.counters().births;
   }
   EXPECT_GE(frames, test_scenes::least(60'000u));
   EXPECT_GT(searches, test_scenes::least(1000u));
@@ -181,7 +190,7 @@ TEST(Tracker, agrees_on_scenes_of_any_kind) {
       if (frame % 8 == 0) {
         for (std::size_t k = 0; k < 3; ++k) {
           const Rational side = box[1][k] - box[0][k];
-          at[k] = box[0][k] + side * Rational(between(random, -50, 150), 100),
+          at[k] = box[0][k] + side * Rational(between(random, -50, 150), 100);
           step[k] = side * Rational(between(random, -9, 9), 1000);
         }
       }
@@ -242,12 +251,14 @@ TEST(Tracker, keeps_edges_to_faces_that_were_checked_already_where_the_paper_to_
   const Lattice_eye next{{9, 2, 0}, 1};  // +y joins +x
   Cut_set_1977 literal(stage.traits, stage.graph, sees_right.view(), Reading_1977::literal),
       mended(stage.traits, stage.graph, sees_right.view(), Reading_1977::mended);
-  literal.update_1977(next.view()), mended.update_1977(next.view());
+  literal.update_1977(next.view());
+  mended.update_1977(next.view());
   EXPECT_FALSE(agrees(literal, stage.graph, on_view(stage.graph, body, next)));
   EXPECT_EQ(literal.cut_edges().size(), 4u);  // of six: those from +y to the faces of +-z are missing
   EXPECT_TRUE(agrees(mended, stage.graph, on_view(stage.graph, body, next)));
   Cut_set_tracker tracker(stage.traits, stage.graph);
-  tracker.move_to(sees_right.view()), tracker.move_to(next.view());
+  tracker.move_to(sees_right.view());
+  tracker.move_to(next.view());
   EXPECT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, body, next)));
 }
 
@@ -259,7 +270,8 @@ TEST(Tracker, turns_an_edge_round_where_both_its_ends_change) {
   literal.update_1977(next.view());
   EXPECT_FALSE(agrees(literal, stage.graph, on_view(stage.graph, body, next)));
   Cut_set_tracker tracker(stage.traits, stage.graph);
-  tracker.move_to(sees_right.view()), tracker.move_to(next.view());
+  tracker.move_to(sees_right.view());
+  tracker.move_to(next.view());
   EXPECT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, body, next)));
   EXPECT_EQ(tracker.last().searches, 0u);
 }
@@ -312,7 +324,8 @@ TEST(Tracker, plain_update_is_right_where_the_proof_says_so) {
       const bool agreed = agrees(plain, stage.graph, after);
       ASSERT_EQ(agreed, stays || touches || !sees) << "trial " << trial;
       ASSERT_EQ(agreed, !(plain.cut_edges().empty() && sees)) << "an empty cut-set tells";
-      ++(agreed ? right : wrong), drastic += agreed && !stays;
+      ++(agreed ? right : wrong);
+      drastic += agreed && !stays;
       // The way meets the body iff the parts of it behind each plane have a point in common: heights are linear.
       double first = 0, last = 1;
       for (std::size_t f = 0; f < body.faces.size(); ++f) {
@@ -434,7 +447,8 @@ TEST(Tracker, tests_at_most_twice_the_cut_set_on_a_convex_body_in_small_steps) {
   for (int k = 1; k < 720; ++k) {
     Viewpoint view = on_circle(k, 720, 4);
     for (Rational& x : view.at) x.canonicalize();
-    tracker.move_to(view), plain_tests += plain.update_1977(view);
+    tracker.move_to(view);
+    plain_tests += plain.update_1977(view);
     cut += tracker.cut_edges().size();
     if (k % 30 == 0) {
       ASSERT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, view)));

@@ -57,7 +57,8 @@ sightline::Polygon_soup town_elsewhere(std::size_t boxes, std::uint64_t seed) {
 /// How many pixels of 6 x 512 x 512 each piece of a scene gets, with depths of 24 bits.
 void count_pixels(const sightline::Scene& scene, const sightline::Exact_point& eye, std::ostream& out) {
   sightline::Depth_buffer_options options;
-  options.size = 512, options.bits = 24;
+  options.size = 512;
+  options.bits = 24;
   const sightline::Depth_buffer buffer = sightline::depth_buffer(scene, eye, options);
   for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
     out << "face " << scene.pieces()[piece].face << ": "
@@ -137,7 +138,8 @@ std::vector<Order_fragment> whole_faces(const Scene& scene, const std::vector<Fa
   std::vector<Order_fragment> fragments;
   for (const Face_id face : order) {
     Order_fragment& fragment = fragments.emplace_back();
-    fragment.face = face, fragment.piece = 0;
+    fragment.face = face;
+    fragment.piece = 0;
     for (const Piece_corner& corner : scene.corners(scene.pieces()[face]))
       fragment.vertices.push_back(scene.position(corner.point));
   }
@@ -173,7 +175,8 @@ TEST(Examples, of_errors_of_orders_and_their_check) {
   const Scene scene(soup);
   const Exact_point eye{Rational(1, 2), Rational(1, 2), 5};
   std::ostringstream out;
-  judge(scene, eye, whole_faces(scene, {0, 1}), out), judge(scene, eye, whole_faces(scene, {1, 0}), out);
+  judge(scene, eye, whole_faces(scene, {0, 1}), out);
+  judge(scene, eye, whole_faces(scene, {1, 0}), out);
   EXPECT_EQ(out.str(),
             "0 pairs in the wrong order, 0 of the area lost\n1 pairs in the wrong order, 0 of the area lost\n");
 
@@ -196,7 +199,8 @@ TEST(Examples, of_depth_buffers_and_their_errors) {
   const Scene scene(two_squares());
   const Exact_point eye{Rational(1, 2), Rational(1, 2), 2};
   std::ostringstream pixels, errors;
-  count_pixels(scene, eye, pixels), judge_views(scene, eye, errors);
+  count_pixels(scene, eye, pixels);
+  judge_views(scene, eye, errors);
   // At distance 1, a unit is 256 pixels, and the area of a face, 19/20, is 62259.2.
   EXPECT_EQ(pixels.str(), "face 0: 0 pixels\nface 1: 62260 pixels\n");
   EXPECT_TRUE(errors.str().starts_with("pixels: 0.000")) << errors.str();

@@ -28,7 +28,8 @@ struct Plain_face {
       normal = generate::along(normal, 1, cross(minus(corners[k], corners[0]), minus(corners[k + 1], corners[0])));
     std::size_t across = 2;
     while (normal[across] == 0) --across;
-    x = (across + 1) % 3, y = (across + 2) % 3;
+    x = (across + 1) % 3;
+    y = (across + 2) % 3;
   }
   const Exact_point& corner(std::size_t k) const { return corners[k % corners.size()]; }
   Rational height(const Exact_point& p) const { return dot(normal, minus(p, corners[0])); }
@@ -186,7 +187,9 @@ inline void bsp_queries(std::string_view bytes) {
 
   // 1. A tree, some of its planes without faces.
   Bsp_options options;
-  options.threads = 1, options.seed = random.below(1000), options.split_weight = static_cast<unsigned>(random.below(4));
+  options.threads = 1;
+  options.seed = random.below(1000);
+  options.split_weight = static_cast<unsigned>(random.below(4));
   options.candidates = 1 + static_cast<unsigned>(random.below(5));
   for (std::uint64_t k = random.chance(1, 3) ? 1 + random.below(2) : 0; k > 0 && !asked.faces.empty(); --k) {
     std::array<Integer, 4> plane;

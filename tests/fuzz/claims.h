@@ -133,7 +133,8 @@ struct Flat {
     int least = 1, most = -1;
     for (const Place& corner : corners) {
       const int side = turns(along, line(corner, normal));
-      least = std::min(least, side), most = std::max(most, side);
+      least = std::min(least, side);
+      most = std::max(most, side);
     }
     if (least > 0 || most < 0) return false;
     const Line at_p = line(p, normal), at_q = line(q, normal);
@@ -144,7 +145,10 @@ struct Flat {
   std::optional<Place> met(const Place& from, const Place& ray) const {
     if (side(from) * sign_of_dot(plane, ray) >= 0) return std::nullopt;
     Integer height = 0, fall = 0;
-    for (std::size_t k = 0; k < 4; ++k) height += plane[k] * from[k], fall += plane[k] * ray[k];
+    for (std::size_t k = 0; k < 4; ++k) {
+      height += plane[k] * from[k];
+      fall += plane[k] * ray[k];
+    }
     Place p;
     for (std::size_t k = 0; k < 4; ++k) p[k] = abs(fall) * from[k] + abs(height) * ray[k];
     return p;

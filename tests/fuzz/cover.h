@@ -36,7 +36,8 @@ inline void cover(std::string_view bytes) {
   std::vector<Order_fragment> all, cut;
   for (const Piece& piece : scene.pieces()) {
     Order_fragment part;
-    part.face = piece.face, part.piece = piece.number;
+    part.face = piece.face;
+    part.piece = piece.number;
     for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
     if (count[piece.face] > 1 || !is_planar(soup, piece.face)) cut.push_back(part);
     all.push_back(std::move(part));

@@ -35,7 +35,8 @@ inline generate::Faces hull_of(const std::set<std::array<long, 3>>& points) {
         bool front = false, behind = false;
         for (const Whole& s : points) {
           const long height = dot(normal, minus(s, p));
-          front |= height > 0, behind |= height < 0;
+          front |= height > 0;
+          behind |= height < 0;
           if (height == 0) on.insert(s);
         }
         if (front || !behind || !seen.insert(on).second) continue;

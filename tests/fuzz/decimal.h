@@ -41,8 +41,10 @@ inline std::optional<Plain_decimal> plain_decimal(std::string text) {
     if (negative) result.exponent = -result.exponent;
   }
   result.negative = sign(text);
-  if (const std::size_t point = text.find('.'); point != std::string::npos)
-    result.places = text.size() - point - 1, text.erase(point, 1);
+  if (const std::size_t point = text.find('.'); point != std::string::npos) {
+    result.places = text.size() - point - 1;
+    text.erase(point, 1);
+  }
   if (!is_digits(text)) return std::nullopt;
   result.digits = Integer(text, 10);
   return result;

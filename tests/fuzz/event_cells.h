@@ -77,9 +77,10 @@ inline void event_cells(std::string_view bytes) {
   // 2. Those that other lines near by are in.
   for (int k = 0; k < 60; ++k) {
     Event_move move;
-    for (Rational& x : move.first)
-      x = Rational(from.integer(10), Integer(1) << (from.below(3) == 0 ? 100 + from.byte() % 8 : from.byte() % 16)),
+    for (Rational& x : move.first) {
+      x = Rational(from.integer(10), Integer(1) << (from.below(3) == 0 ? 100 + from.byte() % 8 : from.byte() % 16));
       x.canonicalize();
+    }
     const std::vector<int> signs = signs_of(move, t);
     if (std::find(signs.begin(), signs.end(), 0) == signs.end())
       require(said.count(signs) == 1, "each cell near the line is visited");

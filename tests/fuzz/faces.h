@@ -46,7 +46,10 @@ inline bool all_spikes(const Polygon_soup& soup, Face_id face) {
 inline void try_reasons(const Polygon_soup& soup, const Scene& scene) {
   std::vector<std::string> why(soup.face_count());
   std::set<Face_id> set_aside;
-  for (const Set_aside& entry : scene.set_aside()) why[entry.face] = entry.why, set_aside.insert(entry.face);
+  for (const Set_aside& entry : scene.set_aside()) {
+    why[entry.face] = entry.why;
+    set_aside.insert(entry.face);
+  }
   const std::string duplicate(text_of(Set_aside_reason::duplicate));
   std::vector<std::string> reasons{"", duplicate, duplicate + "x", duplicate + "-0", duplicate + "4294967296", "zero"};
   for (const std::string_view text : set_aside_texts)
@@ -91,7 +94,8 @@ inline std::optional<Outlined> other_diagonal(Outlined parts, std::size_t k) {
         if (parts[i][a] != parts[j][(b + 1) % 3] || parts[i][(a + 1) % 3] != parts[j][b] || k-- > 0) continue;
         const Exact_point from = parts[i][a], to = parts[i][(a + 1) % 3], here = parts[i][(a + 2) % 3],
                           there = parts[j][(b + 2) % 3];
-        parts[i] = {from, there, here}, parts[j] = {there, to, here};
+        parts[i] = {from, there, here};
+        parts[j] = {there, to, here};
         return parts;
       }
   return std::nullopt;

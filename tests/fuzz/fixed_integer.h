@@ -29,7 +29,8 @@ void check_width(std::string_view bytes) {
   Bytes from(bytes);
   const Integer a = wrapped(from.integer(bits), bits), b = wrapped(from.integer(bits), bits);
   std::array<Limb, Limbs> of_a, of_b;
-  to_limbs(a, of_a.data(), Limbs), to_limbs(b, of_b.data(), Limbs);
+  to_limbs(a, of_a.data(), Limbs);
+  to_limbs(b, of_b.data(), Limbs);
   require(value_of_limbs(of_a.data(), Limbs) == a && from_limbs(of_a.data(), Limbs) == a, "limbs hold the number");
   const Fixed_integer<Limbs> x(of_a.data(), Limbs), y(of_b.data(), Limbs);
   const auto same = [](const Fixed_integer<Limbs>& fixed, const Integer& n) {
@@ -58,7 +59,11 @@ void check_width(std::string_view bytes) {
 }
 
 inline void fixed_integer(std::string_view bytes) {
-  check_width<1>(bytes), check_width<2>(bytes), check_width<4>(bytes), check_width<8>(bytes), check_width<3>(bytes);
+  check_width<1>(bytes);
+  check_width<2>(bytes);
+  check_width<4>(bytes);
+  check_width<8>(bytes);
+  check_width<3>(bytes);
 }
 
 }  // namespace fuzz

@@ -74,7 +74,8 @@ inline std::optional<Box> box_on(const Whole_points& polygon, std::size_t axis, 
     if (!(sense * ray[axis] > 1e-9)) continue;
     for (std::size_t k = 0; k < 2; ++k) {
       const double at = ray[(axis + 1 + k) % 3] / (sense * ray[axis]);
-      box.low[k] = std::min(box.low[k], at), box.high[k] = std::max(box.high[k], at);
+      box.low[k] = std::min(box.low[k], at);
+      box.high[k] = std::max(box.high[k], at);
     }
   }
   if (box.low[0] > box.high[0]) return std::nullopt;
@@ -138,7 +139,8 @@ class Cone_scene {
     Whole from = side_by_side ? needle_ : anywhere(1000), to, width = across_;
     for (std::size_t k = 0; k < 3; ++k) {
       to[k] = -from[k];
-      from[k] += step * across_[k], to[k] += step * across_[k];
+      from[k] += step * across_[k];
+      to[k] += step * across_[k];
       if (!side_by_side) width[k] = number(20);
     }
     Whole beside = from;
@@ -276,7 +278,8 @@ inline void pairs(std::string_view bytes) {
   for (std::size_t place = 0; place < cones.size() && !depths.empty(); place += 1 + scene.below(9)) {
     const std::size_t of = scene.below(cones.size());
     order_check::Cone plane;
-    plane.nearness = cones[of].nearness, plane.distance = scene.below(4) == 0 ? Integer(0) : cones[of].distance;
+    plane.nearness = cones[of].nearness;
+    plane.distance = scene.below(4) == 0 ? Integer(0) : cones[of].distance;
     plane.edge_on = cones[of].edge_on;
     places.others.push_back({place, depths[of], plane, order_check::Rounded_cone(plane)});
   }

@@ -122,7 +122,8 @@ inline void planar_parts(std::string_view bytes) {
         std::size_t inside = 0, touched = 0;
         for (const Outline& part : parts) {
           const int location = location_in(part, {x, y});
-          inside += location > 0, touched += location == 0;
+          inside += location > 0;
+          touched += location == 0;
         }
         require(inside == 0 || inside + touched == 1, "parts lie apart");
       }

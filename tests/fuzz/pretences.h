@@ -207,7 +207,10 @@ inline void add_at(Graph_certificate& claim, std::size_t k, const Order_fragment
   while (first < k) first += claim.sizes[component++];
   claim.sizes.insert(claim.sizes.begin() + static_cast<std::ptrdiff_t>(component), 1);
   claim.fragments.insert(claim.fragments.begin() + static_cast<std::ptrdiff_t>(first), fragment);
-  for (Graph_certificate::Arc& arc : claim.arcs) arc.from += arc.from >= first, arc.to += arc.to >= first;
+  for (Graph_certificate::Arc& arc : claim.arcs) {
+    arc.from += arc.from >= first;
+    arc.to += arc.to >= first;
+  }
 }
 inline void add_at(Visible_certificate& claim, std::size_t, const Order_fragment& fragment) {
   claim.fragments.push_back(fragment);

@@ -109,7 +109,8 @@ inline void quadratic_roots(std::string_view bytes) {
     const bool is_left = std::any_of(left.begin(), left.end(),
                                      [&](const Parameter_range& range) { return range.low < at && at < range.high; });
     require(is_left == !holds(s), "what is left is where it does not hold");
-    runs += is_left && !before, before = is_left;
+    runs += is_left && !before;
+    before = is_left;
   }
   require(left.size() == runs, "neighbours are joined");
 }

@@ -47,9 +47,11 @@ inline std::array<Points, 2> halves(const Points& loop, Mutator& random) {
   const Exact_point begin = at_corner ? loop[0] : middle(loop[0], loop[1]), end = middle(loop[k], loop[(k + 1) % n]);
   const auto at = [&](std::size_t i) { return loop.begin() + static_cast<std::ptrdiff_t>(i); };
   std::array<Points, 2> parts{Points(at(1), at(k + 1)), Points(at(k + 1), loop.end())};
-  parts[0].insert(parts[0].begin(), begin), parts[0].push_back(end);
+  parts[0].insert(parts[0].begin(), begin);
+  parts[0].push_back(end);
   if (!at_corner) parts[1].push_back(loop[0]);
-  parts[1].insert(parts[1].begin(), end), parts[1].push_back(begin);
+  parts[1].insert(parts[1].begin(), end);
+  parts[1].push_back(begin);
   return parts;
 }
 
@@ -119,7 +121,10 @@ inline void retell(Graph_certificate& claim, Mutator& random) {
         for (const std::size_t i : any_order(size, random)) order.push_back(first + i);
       }
       const std::vector<std::size_t> becomes = reorder(claim, order);
-      for (Graph_certificate::Arc& arc : claim.arcs) arc.from = becomes[arc.from], arc.to = becomes[arc.to];
+      for (Graph_certificate::Arc& arc : claim.arcs) {
+        arc.from = becomes[arc.from];
+        arc.to = becomes[arc.to];
+      }
     } break;
     default: shuffle(claim.arcs, random);
   }
@@ -202,11 +207,13 @@ inline void weaken(Weak_certificate& claim, Weak_certificate::Hidden& entry, Mut
       break;
     case 1:
       if (has(Node::Kind::cut_source)) return;
-      root.kind = Node::Kind::cut_source, root.plane = bisector(claim.sources[entry.source]);
+      root.kind = Node::Kind::cut_source;
+      root.plane = bisector(claim.sources[entry.source]);
       break;
     default:
       if (has(Node::Kind::cut_target)) return;
-      root.kind = Node::Kind::cut_target, root.plane = bisector(claim.fragments[entry.fragment].vertices);
+      root.kind = Node::Kind::cut_target;
+      root.plane = bisector(claim.fragments[entry.fragment].vertices);
   }
   std::vector<Node> proof{root};
   for (int times = 0; times < 2; ++times) proof.insert(proof.end(), entry.proof.begin(), entry.proof.end());

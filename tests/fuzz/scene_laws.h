@@ -35,7 +35,8 @@ inline void scene_laws(std::string_view bytes) {
   if (random.chance(1, 3)) {
     const generate::Family& family = generate::families()[random.below(generate::families().size())];
     generate::Family_parameters parameters;
-    parameters.seed = random.below(1000000), parameters.size = family.small_size;
+    parameters.seed = random.below(1000000);
+    parameters.size = family.small_size;
     parameters.ulps = random.chance(1, 2) ? 0 : random.between(-2, 2);
     scene = family.make(parameters);
   } else {

@@ -31,7 +31,8 @@ std::optional<std::array<std::vector<std::uint32_t>, 3>> sides_of(const std::vec
     bool below = false, above = false;
     for (const Exact_point& p : faces[member].corners) {
       const int side = sgn(value(p));
-      below = below || side < 0, above = above || side > 0;
+      below = below || side < 0;
+      above = above || side > 0;
     }
     if (below && above) return std::nullopt;
     sides[above ? 2 : below ? 1 : 0].push_back(member);

@@ -71,7 +71,8 @@ inline const std::vector<Lie<Solid_certificate>>& lies_in(const Solid_certificat
          Fragment &one = claim.fragments[any_of_first(claim.fragments, bytes)],
                   &other = claim.fragments[any_of_first(claim.fragments, bytes)];
          const bool alike = one.front == other.front && one.fate == other.fate;
-         std::swap(one.front, other.front), std::swap(one.fate, other.fate);
+         std::swap(one.front, other.front);
+         std::swap(one.fate, other.fate);
          return !alike;
        }},
       {"a fragment left out",
@@ -148,7 +149,8 @@ class Solid_truth {
     const auto question = std::pair(operation, rule);
     const auto known = volumes_.find(question);
     Set_options options;
-    options.operation = operation, options.inside = rule;
+    options.operation = operation;
+    options.inside = rule;
     const Rational& expected =
         known != volumes_.end()
             ? known->second

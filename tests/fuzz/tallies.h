@@ -15,7 +15,9 @@ struct Judged {
 
   std::size_t shown() const { return rejected + accepted; }
   Judged& operator+=(const Judged& other) {
-    rejected += other.rejected, accepted += other.accepted, the_truth += other.the_truth;
+    rejected += other.rejected;
+    accepted += other.accepted;
+    the_truth += other.the_truth;
     return *this;
   }
 };

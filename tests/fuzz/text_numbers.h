@@ -119,7 +119,10 @@ class Page {
   enum class Kind { plain, binary, hash, backslash, words };  ///< words: a line end is a blank
   Page(Random& random, Kind kind)
       : random_(&random), kind_(kind), end_of_line_(random.below(kind == Kind::binary ? 3 : 4)) {
-    if (random.chance(1, 8)) text = byte_order_mark, begin_ = text.size();
+    if (random.chance(1, 8)) {
+      text = byte_order_mark;
+      begin_ = text.size();
+    }
     if (random.chance(1, 2)) left_ = random.below(40);
   }
   std::string text;
@@ -317,18 +320,25 @@ inline Ply_layout add_ply_header(Page& page, const Meant& meant, const std::stri
   line({"ply"});
   line({"format", encoding, "1.0"});
   if (random.chance(1, 2)) line({"comment", "end_header"});
-  page.add("element"), page.add("vertex"), page.add(std::to_string(meant.points.size()), no_counts, true);
+  page.add("element");
+  page.add("vertex");
+  page.add(std::to_string(meant.points.size()), no_counts, true);
   page.end_line();
   for (const std::string& name : layout.columns)
     line({"property", name == "u" ? "int16" : types[static_cast<std::size_t>(name[0] - 'x')], name});
-  page.add("element"), page.add("face"), page.add(std::to_string(meant.faces.size()), no_counts, true);
+  page.add("element");
+  page.add("face");
+  page.add(std::to_string(meant.faces.size()), no_counts, true);
   page.end_line();
   // Corners are a list of integers; where they are not, the name is the place.
   const std::string name = random.chance(1, 2) ? "vertex_indices" : "vertex_index";
   page.add("property");
   const bool whole = !random.chance(1, 12) || page.wrong;
   const std::uint64_t kind = random.below(3);
-  if (whole || kind > 0) page.add("list"), page.add("uchar");
+  if (whole || kind > 0) {
+    page.add("list");
+    page.add("uchar");
+  }
   page.add(whole || kind == 0 ? index : kind == 1 ? "float" : "float64");
   if (whole) page.add(name);
   else page.add_wrong(name);
@@ -462,7 +472,8 @@ inline void try_binary_stl(Meant meant, Random& random) {
   for (Exact_point& point : meant.points)
     for (Rational& x : point) {
       const auto [of_x, value] = any_binary(ply_numbers[6], random);
-      bits.push_back(of_x), x = value;
+      bits.push_back(of_x);
+      x = value;
     }
   for (auto& face : meant.faces) {
     face.resize(3);
@@ -662,7 +673,8 @@ inline void text_numbers(std::string_view bytes) {
     auto& written = meant.written.emplace_back();
     auto& point = meant.points.emplace_back();
     if (meant.points.size() > 1 && random.chance(1, 6)) {
-      written = meant.written[0], point = meant.points[0];
+      written = meant.written[0];
+      point = meant.points[0];
       continue;
     }
     for (std::size_t a = 0; a < 3; ++a) {

@@ -100,7 +100,10 @@ inline void try_sightline(Random& random) {
   Weak_scene scene{leaning(0, 2, random), {leaning(4, 2, random)}};
   const Exact_point p = random.chance(1, 8) ? scene.source[0] : any_inside(scene.source, random),
                     q = random.chance(1, 8) ? scene.faces[0][0] : any_inside(scene.faces[0], random);
-  if (!random.chance(1, 8)) scene.source = facing(scene.source, q), scene.faces[0] = facing(scene.faces[0], p);
+  if (!random.chance(1, 8)) {
+    scene.source = facing(scene.source, q);
+    scene.faces[0] = facing(scene.faces[0], p);
+  }
   for (std::uint64_t k = random.below(3); k > 0; --k) {
     Points other;
     switch (random.below(4)) {
@@ -147,7 +150,10 @@ inline bool is_blocked(const Points& source, const Points& target, const Points&
   int here = 0, there = 0;  // sides of source and target
   for (const Points* of : {&source, &target}) {
     bool above = false, below = false;
-    for (const Exact_point& p : *of) above = above || face.height(p) > 0, below = below || face.height(p) < 0;
+    for (const Exact_point& p : *of) {
+      above = above || face.height(p) > 0;
+      below = below || face.height(p) < 0;
+    }
     (of == &source ? here : there) = int{above} - int{below};
   }
   if (here * there >= 0) return false;
@@ -225,7 +231,8 @@ inline Rational canonical(Rational value) {
 inline void try_tree(Random& random) {
   using Node = Weak_certificate::Node::Kind;
   Weak_scene scene{leaning(0, 1, random), {leaning(4, 1, random)}};
-  scene.source = facing(scene.source, scene.faces[0][0]), scene.faces[0] = facing(scene.faces[0], scene.source[0]);
+  scene.source = facing(scene.source, scene.faces[0][0]);
+  scene.faces[0] = facing(scene.faces[0], scene.source[0]);
   const Points wall = generate::either_way(leaning(2, static_cast<long>(random.between(1, 4)), random), random);
   const std::size_t n = wall.size(), first = random.below(n), second = first + 2;
   const bool in_two = n == 4 && random.chance(1, 2);

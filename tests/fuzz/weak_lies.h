@@ -30,8 +30,10 @@ bool move_an_end(Weak_certificate& claim, const Posed_scene&, Bytes& bytes) {
       for (std::size_t i = 0; i < fragment.vertices.size(); ++i) {
         const Exact_point &p = fragment.vertices[i], &q = fragment.vertices[(i + 1) % fragment.vertices.size()];
         Rational at_p = 0, at_q = 0;  // heights over the plane
-        for (std::size_t k = 0; k < 3; ++k)
-          at_p += flat.plane[k] * (p[k] - own[0][k]), at_q += flat.plane[k] * (q[k] - own[0][k]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          at_p += flat.plane[k] * (p[k] - own[0][k]);
+          at_q += flat.plane[k] * (q[k] - own[0][k]);
+        }
         if (sgn(at_p) * sgn(at_q) > 0) continue;
         Exact_point end = middle(p, q);
         for (std::size_t k = 0; k < 3 && at_p != at_q; ++k) end[k] = p[k] + at_p / (at_p - at_q) * (q[k] - p[k]);
@@ -74,7 +76,8 @@ bool hide_at_random(Weak_certificate& claim, const Posed_scene&, Bytes& bytes) {
   const auto grow = [&](const auto& self, std::size_t depth) -> void {
     Node node;
     if (depth < decided) {
-      node.kind = Node::Kind::line, node.index = first + depth;
+      node.kind = Node::Kind::line;
+      node.index = first + depth;
       entry.proof.push_back(node);
       self(self, depth + 1);
       return self(self, depth + 1);

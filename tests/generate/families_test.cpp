@@ -22,7 +22,9 @@ using sightline::Scene;
 
 Family_parameters with(std::uint64_t seed, std::int64_t ulps = 0, std::size_t size = 0) {
   Family_parameters parameters;
-  parameters.seed = seed, parameters.ulps = ulps, parameters.size = size;
+  parameters.seed = seed;
+  parameters.ulps = ulps;
+  parameters.size = size;
   return parameters;
 }
 std::string text_of(const Posed_scene& scene) {
@@ -79,7 +81,8 @@ TEST(Families, are_where_the_offset_and_the_scale_put_them) {
     for (const int power : {-1000, -1070, 900, 0}) {
       Family_parameters parameters = with(2, 1, family.small_size);
       const Posed_scene here = family.make(parameters);
-      parameters.scale = generate::power_of_two(power), parameters.offset = {500000, Rational(-1, 3), 4000000};
+      parameters.scale = generate::power_of_two(power);
+      parameters.offset = {500000, Rational(-1, 3), 4000000};
       const Posed_scene there = family.make(parameters);
       ASSERT_EQ(here.soup.point_count(), there.soup.point_count());
       const auto place = [&](const Exact_point& p) { return generate::along(parameters.offset, parameters.scale, p); };
@@ -206,13 +209,15 @@ TEST(Families, have_one_with_exponents_of_all_doubles_in_one_scene) {
     const Posed_scene scene = generate::family("exponents").make(with(seed));
     EXPECT_GE(scene.source.size(), 3u);
     const Scene read(scene.soup);
-    kept += read.counters().faces, faces += scene.soup.face_count();
+    kept += read.counters().faces;
+    faces += scene.soup.face_count();
     Rational least = 1, most = 1;
     for (std::size_t k = 0; k < scene.soup.coordinates.size(); ++k) {
       const Rational x = abs(scene.soup.coordinates[k]);
       EXPECT_EQ(sightline::exact(sightline::nearest_double(x)), x) << seed;
       if (x == 0) continue;
-      least = std::min(least, x), most = std::max(most, x);
+      least = std::min(least, x);
+      most = std::max(most, x);
     }
     tiny = tiny || least < generate::power_of_two(-1022);
     huge = huge || most > generate::power_of_two(1000);

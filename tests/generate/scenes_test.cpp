@@ -208,7 +208,9 @@ TEST(Generate, triangles_between_squares_are_those_of_the_formula) {
       for (std::size_t k = 0; k < n; ++k) {
         float centre[3];
         for (float& c : centre) c = u(engine);
-        centre[0] *= 1.2f, centre[1] *= 1.2f, centre[2] = 5 + 4 * centre[2];
+        centre[0] *= 1.2f;
+        centre[1] *= 1.2f;
+        centre[2] = 5 + 4 * centre[2];
         for (std::size_t corner = 0; corner < 3; ++corner) {
           const Exact_point p = soup.point(soup.loop(static_cast<Face_id>(2 + k))[corner]);
           for (std::size_t i = 0; i < 3; ++i) {
@@ -473,7 +475,9 @@ TEST(Generate, menger_sponge_has_the_known_area_and_volume) {
     EXPECT_EQ(soup.face_count(), area_20 + area_8) << level;
     EXPECT_TRUE(closed(soup));
     EXPECT_EQ(static_cast<std::size_t>(volume(soup)), 6 * volume_20);
-    area_20 *= 20, area_8 *= 8, volume_20 *= 20;
+    area_20 *= 20;
+    area_8 *= 8;
+    volume_20 *= 20;
   }
 }
 
@@ -494,10 +498,14 @@ TEST(Generate, rooms_are_closed_and_connected) {
       std::size_t count = 0;
       while (!visit.empty()) {
         const Face_id f = visit.back();
-        visit.pop_back(), ++count;
+        visit.pop_back();
+        ++count;
         for (std::size_t i = 0; i < 4; ++i)
           for (const Face_id g : at[std::minmax(soup.loop(f)[i], soup.loop(f)[(i + 1) % 4])])
-            if (!seen[g]) seen[g] = true, visit.push_back(g);
+            if (!seen[g]) {
+              seen[g] = true;
+              visit.push_back(g);
+            }
       }
       EXPECT_EQ(count, soup.face_count());
     }

@@ -41,8 +41,12 @@ bool same_faces(const Polygon_soup& a, const Polygon_soup& b) {
 Polygon_soup sample() {
   Polygon_soup soup = generate::city(5, 1, true);
   const Point_id a = soup.add_point(0.0, 0.0, 7.0);
-  soup.add_point(8.0, 0.0, 7.0), soup.add_point(8.0, 8.0, 7.0), soup.add_point(0.0, 8.0, 7.0);
-  soup.add_point(1.0, 1.0, 7.0), soup.add_point(1.0, 2.0, 7.0), soup.add_point(2.0, 1.0, 7.0);
+  soup.add_point(8.0, 0.0, 7.0);
+  soup.add_point(8.0, 8.0, 7.0);
+  soup.add_point(0.0, 8.0, 7.0);
+  soup.add_point(1.0, 1.0, 7.0);
+  soup.add_point(1.0, 2.0, 7.0);
+  soup.add_point(2.0, 1.0, 7.0);
   soup.add_point(fraction(1, 3), fraction(-2, 7), fraction(1, 1000000007));
   soup.add_face({a, a + 1, a + 2, a + 3});
   soup.add_hole({a + 4, a + 5, a + 6});

@@ -161,7 +161,8 @@ std::string vtk_array(const std::string& text, const std::string& name) {
     if (c == '=') break;
     const auto value = std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/").find(c);
     EXPECT_NE(value, std::string_view::npos);
-    bits = bits << 6 | static_cast<std::uint32_t>(value), count += 6;
+    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    count += 6;
     if (count >= 8) bytes += static_cast<char>(bits >> (count -= 8) & 255);
   }
   EXPECT_EQ(load<std::uint64_t>(bytes, 0, std::endian::little), bytes.size() - 8) << name;

@@ -50,7 +50,10 @@ TEST(Obj, a_backslash_joins_lines) {
 TEST(Obj, faces_of_any_number_of_corners_are_kept) {
   EXPECT_EQ(read_text("v 0 0 0\nf\nf 1\nf 1 1\n", obj), "0 0 0 |, 0, 0 0");
   std::string text, face = "f";
-  for (int i = 1; i <= 20000; ++i) text += "v " + std::to_string(i) + " 0.5 0\n", face += " " + std::to_string(i);
+  for (int i = 1; i <= 20000; ++i) {
+    text += "v " + std::to_string(i) + " 0.5 0\n";
+    face += " " + std::to_string(i);
+  }
   const Polygon_soup soup = read_scene(text + face, obj, "scene");
   ASSERT_EQ(soup.face_count(), 1u);
   EXPECT_EQ(soup.loop(0).size(), 20000u);

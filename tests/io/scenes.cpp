@@ -31,8 +31,11 @@ std::map<std::string, std::array<std::size_t, 2>> announced_counts(const fs::pat
   for (std::string line; std::getline(readme, line);) {
     std::istringstream cells(line);
     std::string bar, file, kilobytes, vertices, faces;
-    std::getline(cells, bar, '|'), std::getline(cells, file, '|'), std::getline(cells, kilobytes, '|'),
-        std::getline(cells, vertices, '|'), std::getline(cells, faces, '|');
+    std::getline(cells, bar, '|');
+    std::getline(cells, file, '|');
+    std::getline(cells, kilobytes, '|');
+    std::getline(cells, vertices, '|');
+    std::getline(cells, faces, '|');
     std::istringstream(file) >> file;
     std::array<std::size_t, 2> row{};
     if (std::istringstream(vertices) >> row[0] && std::istringstream(faces) >> row[1]) counts[file] = row;

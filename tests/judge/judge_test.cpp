@@ -57,7 +57,9 @@ Polygon_soup tower(std::initializer_list<int> heights) {
 }
 Query question(Question kind, const Exact_point& eye, bool two_sided = false) {
   Query query;
-  query.question = kind, query.eye = eye, query.two_sided = two_sided;
+  query.question = kind;
+  query.eye = eye;
+  query.two_sided = two_sided;
   return query;
 }
 Grade graded_by(const Truth_options& options, const Polygon_soup& soup, const Query& query, const std::string& text) {
@@ -266,7 +268,8 @@ TEST(Orders, of_a_tower) {
 
 TEST(Orders, of_squares_a_hair_apart_are_judged_exactly) {
   Polygon_soup soup;
-  add_square(soup, 0, 1), add_square(soup, 0, 1 + exact(0x1p-52));
+  add_square(soup, 0, 1);
+  add_square(soup, 0, 1 + exact(0x1p-52));
   const Query above = question(Question::order, {0, 0, 5});
   EXPECT_FALSE(graded(soup, above, "0\n1\n").wrong());
   EXPECT_TRUE(graded(soup, above, "1\n0\n").wrong());
@@ -342,7 +345,8 @@ TEST(Orders, of_whole_faces_are_graded_as_verify_accepts_them) {
       }
       const bool right = verify_order(made.soup, certificate).accepted;
       EXPECT_EQ(!grade(truth, answer).wrong(), right) << "seed " << seed;
-      some = some || right, ++(right ? accepted : rejected);
+      some = some || right;
+      ++(right ? accepted : rejected);
     } while (std::next_permutation(order.begin(), order.end()));
     EXPECT_EQ(truth.order->whole_faces_do(), some) << "seed " << seed;
     cycles += !some;
@@ -388,7 +392,9 @@ TEST(Orders, by_exact_trees_are_right_with_rounded_corners_and_wrong_when_revers
 
 TEST(Contracts, are_broken_by_what_they_forbid) {
   Grade shows, hides, open;
-  shows.wrong_visible = {1}, hides.wrong_hidden = {2}, open.abstained = {3};
+  shows.wrong_visible = {1};
+  hides.wrong_hidden = {2};
+  open.abstained = {3};
   struct Case {
     Mark mark;
     Grade grade;
@@ -449,7 +455,8 @@ TEST(Explanation, of_what_an_eye_sees_names_a_line_and_a_share_of_all_directions
 
 TEST(Explanation, of_faces_in_one_plane_finds_the_part_that_is_anothers) {
   Polygon_soup soup;
-  add_square(soup, 0, 0), add_square(soup, 1, 0);
+  add_square(soup, 0, 0);
+  add_square(soup, 1, 0);
   const Explanation why = explained(soup, question(Question::see, {0, 0, 1}), "0\n");
   ASSERT_TRUE(why.refutation);
   EXPECT_EQ(why.refutation->face, 1u);
@@ -546,7 +553,8 @@ TEST(Guess, of_concave_faces_wants_both_kinds) {
 
 Query rays(std::vector<Exact_ray> all) {
   Query query;
-  query.question = Question::trace, query.rays = std::move(all);
+  query.question = Question::trace;
+  query.rays = std::move(all);
   return query;
 }
 Grade graded_rays(const Polygon_soup& soup, const Query& query, const std::string& text, bool excuse = false) {
@@ -616,7 +624,9 @@ TEST(Rays, meet_the_upper_of_two_squares) {
 
 TEST(Rays, that_touch_follow_the_law_or_are_excused) {
   Polygon_soup soup;  // two squares with an edge in common, one below, and the first once more
-  add_square(soup, 0, 1), add_square(soup, 2, 1), add_square(soup, 1, 0, 3);
+  add_square(soup, 0, 1);
+  add_square(soup, 2, 1);
+  add_square(soup, 1, 0, 3);
   soup.add_face({2, 3, 0, 1});
   const Exact_ray edge{{1, 0, 5}, {0, 0, -1}}, corner{{-1, -1, 5}, {0, 0, -1}}, along{{-4, 0, 1}, {1, 0, 0}},
       on{{0, 0, 1}, {0, 0, -1}};
@@ -687,7 +697,8 @@ std::optional<Faces> first_by_force(const Polygon_soup& soup, const Exact_ray& r
     }
     if (!inside) continue;
     if (t < nearest || first.empty()) first.clear();
-    nearest = t, first.push_back(f);
+    nearest = t;
+    first.push_back(f);
   }
   return first;
 }
@@ -705,7 +716,8 @@ TEST(Rays, about_heaps_are_judged_as_by_force) {
       if (!first) continue;
       EXPECT_EQ(truth.rays[r].right, *first) << "seed " << seed << ", ray " << r;
       EXPECT_EQ(truth.rays[r].nothing, first->empty()) << "seed " << seed << ", ray " << r;
-      ++(first->empty() ? missed : met), several += first->size() > 1;
+      ++(first->empty() ? missed : met);
+      several += first->size() > 1;
     }
   }
   EXPECT_GT(met, 8 * rounds);

@@ -33,7 +33,9 @@ struct Asked_solids {
 };
 Asked_solids asked(const Polygon_soup& a, const Polygon_soup& b, Set_operation operation) {
   Asked_solids of{joined(std::array{a, b}), {}};
-  of.query.question = Question::boolean, of.query.operation = operation, of.query.first = a.face_count();
+  of.query.question = Question::boolean;
+  of.query.operation = operation;
+  of.query.first = a.face_count();
   return of;
 }
 const Polygon_soup corner_box = box({0, 0, 0}, {4, 4, 4}), other_box = box({2, 2, 2}, {6, 6, 6});
@@ -199,7 +201,9 @@ TEST(Solids, are_surfaces_that_wind_once) {
   // A face that crosses itself.
   Polygon_soup bow = corner_box;
   const Point_id first = bow.add_point(9, 0, 0);
-  bow.add_point(10, 1, 0), bow.add_point(10, 0, 0), bow.add_point(9, 1, 0);
+  bow.add_point(10, 1, 0);
+  bow.add_point(10, 0, 0);
+  bow.add_point(9, 1, 0);
   bow.add_face({first, first + 1, first + 2, first + 3});
   EXPECT_EQ(refusal(same, bow), "face 6 crosses itself");
 }
@@ -237,7 +241,9 @@ std::vector<std::pair<Case, std::string>> some_cases() {
     for (const std::int64_t ulps : {std::int64_t{0}, std::int64_t{1}, generate::far_ulps}) {
       ++seed;
       generate::Family_parameters parameters;
-      parameters.seed = seed, parameters.ulps = ulps, parameters.size = generate::family(family).small_size;
+      parameters.seed = seed;
+      parameters.ulps = ulps;
+      parameters.size = generate::family(family).small_size;
       const Case made = case_of(generate::family(family), parameters, options);
       if (made.not_asked.empty() && flaw_of_solids(made.soup, made.query.first).empty())
         cases.emplace_back(made, std::string(family) + ", seed " + std::to_string(seed) + ", ulps " +
@@ -312,7 +318,8 @@ TEST(Solids, keep_the_holes_of_their_faces) {
   Polygon_soup frame;
   for (const long size : {3, 1})
     for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) frame.add_point(size * x, size * y, 0);
-  frame.add_face({0, 1, 2, 3}), frame.add_hole({7, 6, 5, 4});
+  frame.add_face({0, 1, 2, 3});
+  frame.add_hole({7, 6, 5, 4});
   const std::array<Polygon_soup, 2> solids = solids_of(joined(std::array{frame, frame}), 1);
   for (const Polygon_soup& solid : solids) {
     ASSERT_EQ(solid.face_count(), 1u);

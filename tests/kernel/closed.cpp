@@ -53,7 +53,8 @@ TEST(Closure, a_doubled_face_opens_also_where_it_is_set_aside_as_a_duplicate) {
   EXPECT_FALSE(closed(soup));
   Polygon_soup halves;
   add_cube(halves, 0, 0, 0, 2);
-  halves.add_face({4, 5, 7}), halves.add_face({4, 7, 6});
+  halves.add_face({4, 5, 7});
+  halves.add_face({4, 7, 6});
   EXPECT_FALSE(closed(halves));
 }
 TEST(Closure, all_faces_doubled_or_tripled_close_as_they_do_once) {
@@ -126,7 +127,8 @@ TEST(Closure, two_cubes_are_closed_apart_touching_at_a_face_at_an_edge_and_throu
   for (const auto& [x, y, z] :
        {std::array<long, 3>{9, 0, 0}, {4, 0, 0}, {4, 1, 1}, {4, 4, 0}, {4, 4, 4}, {1, 1, 1}, {2, 0, 0}}) {
     Polygon_soup soup;
-    add_cube(soup, 0, 0, 0, 4), add_cube(soup, x, y, z, 4);
+    add_cube(soup, 0, 0, 0, 4);
+    add_cube(soup, x, y, z, 4);
     EXPECT_TRUE(closed(soup)) << x << ' ' << y << ' ' << z;
   }
 }

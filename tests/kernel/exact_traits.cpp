@@ -31,7 +31,8 @@ struct Square_and_planes {
                     {0, 1, 0}});
     if (mirrored) soup.add_face({3, 2, 1, 0});
     else soup.add_face({0, 1, 2, 3});
-    soup.add_face({4, 5, 6}), soup.add_face({4, 5, 7});
+    soup.add_face({4, 5, 6});
+    soup.add_face({4, 5, 7});
     scene = std::make_unique<Scene>(soup);
     for (const auto& h : cutters) {
       // File = offset + unit x grid here (scale 1): read off where the origin is.
@@ -79,8 +80,11 @@ TEST(Exact_traits, pieces_begin_with_their_corners_on_their_planes_and_inside_th
 TEST(Exact_traits, a_cut_of_an_edge_is_known_to_lie_on_both_its_faces) {
   // A tetrahedron (no wall is the edge plane of another) and a triangle that cuts four of its edges.
   Polygon_soup soup = soup_of({{0, 0, 0}, {7, 1, 2}, {2, 8, 1}, {1, 2, 9}, {-9, 1, 3}, {12, -5, 2}, {3, 14, 4}});
-  soup.add_face({0, 2, 1}), soup.add_face({0, 1, 3}), soup.add_face({1, 2, 3}), soup.add_face({2, 0, 3}),
-      soup.add_face({4, 5, 6});
+  soup.add_face({0, 2, 1});
+  soup.add_face({0, 1, 3});
+  soup.add_face({1, 2, 3});
+  soup.add_face({2, 0, 3});
+  soup.add_face({4, 5, 6});
   const Scene scene(soup);
   const Exact_traits traits(scene);
   Polygon_store<Exact_traits> store;
@@ -207,7 +211,10 @@ TEST(Split, cutting_fifty_deep_stays_exact_and_its_error_does_not_grow) {
       if (classify(traits, polygon, cutter, scratch, counts) != Position::across) continue;
       const auto parts = split(traits, polygon, cutter, scratch, store);
       polygon = parts[0].size > parts[1].size ? parts[0] : parts[1];
-      for (const auto& corner : polygon) ++made, worst = std::max(worst, corner.vertex->error);
+      for (const auto& corner : polygon) {
+        ++made;
+        worst = std::max(worst, corner.vertex->error);
+      }
     }
     EXPECT_GT(made, 50u);
     EXPECT_LT(worst, std::ldexp(1.0, bits - 24)) << bits;
@@ -286,7 +293,9 @@ TEST(Exact_traits, an_eye_is_on_the_side_that_its_coordinates_say) {
 
 TEST(Exact_traits, knows_coplanar_faces_and_whether_they_face_alike) {
   Polygon_soup soup;
-  add_cube(soup, 0, 0, 0, 4), add_cube(soup, 4, 0, 0, 4), add_cube(soup, 8, 0, 0, 4);
+  add_cube(soup, 0, 0, 0, 4);
+  add_cube(soup, 4, 0, 0, 4);
+  add_cube(soup, 8, 0, 0, 4);
   const Scene scene(soup);
   const Exact_traits traits(scene);
   EXPECT_TRUE(traits.same_plane(traits.supporting_plane(1), traits.supporting_plane(6)));
@@ -344,7 +353,8 @@ void expect_groups_agree(const Scene& scene, Random& random) {
     for (std::size_t i = parts.size(); i-- > 0;) {
       if (classify(traits, parts[i], cutter, scratch, ignored) != Position::across) continue;
       const auto halves = split(traits, parts[i], cutter, scratch, store);
-      parts[i] = halves[0], parts.push_back(halves[1]);
+      parts[i] = halves[0];
+      parts.push_back(halves[1]);
     }
   }
   for (std::size_t size = 1; size <= Plane_group<Exact_traits>::most && !parts.empty(); ++size) {

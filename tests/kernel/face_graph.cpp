@@ -47,8 +47,10 @@ Polygon_soup pentagram(const Rational& scale, const Exact_point& offset) {
            {1, -4, 0}, {1, 4, 0}, {-3, -2, 0}, {4, 0, 0}, {-3, 2, 0}, {0, 0, 3}, {0, 0, -30}})
     soup.add_point(Rational(scale * p[0] + offset[0]), Rational(scale * p[1] + offset[1]),
                    Rational(scale * p[2] + offset[2]));
-  for (Point_id k = 0; k < 5; ++k)
-    soup.add_face(std::vector<Point_id>{k, (k + 1) % 5, 5}), soup.add_face(std::vector<Point_id>{(k + 1) % 5, k, 6});
+  for (Point_id k = 0; k < 5; ++k) {
+    soup.add_face(std::vector<Point_id>{k, (k + 1) % 5, 5});
+    soup.add_face(std::vector<Point_id>{(k + 1) % 5, k, 6});
+  }
   return soup;
 }
 
@@ -132,9 +134,13 @@ TEST(Face_graph, a_surface_wound_twice_round_is_bent_outwards_everywhere_and_sti
   for (std::size_t k = 0; k < 5; ++k)
     points.push_back(
         std::array<std::array<double, 3>, 5>{{{4, 0, 0}, {1, 4, 0}, {-3, 2, 0}, {-3, -2, 0}, {1, -4, 0}}}[2 * k % 5]);
-  points.push_back({0, 0, 3}), points.push_back({0, 0, -3});
+  points.push_back({0, 0, 3});
+  points.push_back({0, 0, -3});
   std::vector<std::vector<Point_id>> faces;
-  for (Point_id k = 0; k < 5; ++k) faces.push_back({k, (k + 1) % 5, 5}), faces.push_back({(k + 1) % 5, k, 6});
+  for (Point_id k = 0; k < 5; ++k) {
+    faces.push_back({k, (k + 1) % 5, 5});
+    faces.push_back({(k + 1) % 5, k, 6});
+  }
   const Scene scene(polyhedron(points, faces));
   const Face_graph graph(scene);
   EXPECT_EQ(graph.components().size(), 1u);
@@ -161,7 +167,8 @@ TEST(Face_graph, two_bodies_are_two_components) {
   const Face_graph graph(scene);
   ASSERT_EQ(graph.components().size(), 2u);
   EXPECT_EQ(graph.size(), 12u);
-  expect_convex(scene, graph, 0), expect_convex(scene, graph, 1);
+  expect_convex(scene, graph, 0);
+  expect_convex(scene, graph, 1);
 }
 
 TEST(Face_graph, joins_what_is_a_manifold_and_leaves_the_rest_apart) {
@@ -180,7 +187,8 @@ TEST(Face_graph, joins_what_is_a_manifold_and_leaves_the_rest_apart) {
 
 TEST(Face_graph, a_sheet_and_its_back_are_two_nodes_and_no_body) {
   Polygon_soup soup = soup_of({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}});
-  soup.add_face({0, 1, 2, 3}), soup.add_face({3, 2, 1, 0});
+  soup.add_face({0, 1, 2, 3});
+  soup.add_face({3, 2, 1, 0});
   const Scene scene(soup);
   const Face_graph graph(scene);
   EXPECT_EQ(graph.size(), 2u);
@@ -220,7 +228,10 @@ TEST(Face_graph, the_boxes_of_a_city_are_convex_and_its_ground_is_not) {
     const Face_graph graph(scene);
     std::size_t convex = 0;
     for (std::uint32_t c = 0; c < graph.components().size(); ++c)
-      if (graph.components()[c].inside) ++convex, expect_convex(scene, graph, c);
+      if (graph.components()[c].inside) {
+        ++convex;
+        expect_convex(scene, graph, c);
+      }
     std::size_t closed = 0;
     for (const auto& component : graph.components()) closed += component.closed;
     EXPECT_EQ(convex, closed) << kind;
@@ -254,9 +265,9 @@ TEST(Face_graph, tells_small_bodies_in_large_scenes) {
           for (Face_id f = 0; f < sphere.face_count(); ++f) soup.add_face(sphere.loop(f));
         }
         const Point_id first = soup.point_count();
-        soup.add_point(Rational(1'000'000), Rational(0), Rational(0)),
-            soup.add_point(Rational(0), Rational(1'000'000), Rational(0)),
-            soup.add_point(Rational(0), Rational(0), Rational(-1'000'000));
+        soup.add_point(Rational(1'000'000), Rational(0), Rational(0));
+        soup.add_point(Rational(0), Rational(1'000'000), Rational(0));
+        soup.add_point(Rational(0), Rational(0), Rational(-1'000'000));
         soup.add_face(std::vector<Point_id>{first, first + 1, first + 2});
         const Scene scene(soup);
         const Face_graph graph(scene);

@@ -37,7 +37,10 @@ Integer number_in(Fixed_integer<L> n) {
   }
   for (int k = 64 * L - 2; k >= 0; --k) {
     const Fixed_integer<L> less = n - fixed<L>(power_of_two(k));
-    if (less.sign() >= 0) n = less, result += power_of_two(k);
+    if (less.sign() >= 0) {
+      n = less;
+      result += power_of_two(k);
+    }
   }
   return result;
 }
@@ -86,8 +89,10 @@ void check_limb_conversions() {
   std::mt19937_64 random(99 + L);
   std::vector<Integer> numbers{0, 1, -1, 2, -2};
   for (int k = 1; k < 64 * L; ++k)
-    for (const int off : {-1, 0, 1})
-      numbers.push_back(power_of_two(k) + off), numbers.push_back(-power_of_two(k) + off);
+    for (const int off : {-1, 0, 1}) {
+      numbers.push_back(power_of_two(k) + off);
+      numbers.push_back(-power_of_two(k) + off);
+    }
   for (int i = 0; i < 100; ++i) numbers.push_back(sample<L>(random));
   for (const Integer& n : numbers) {
     Limb limbs[L];

@@ -56,7 +56,10 @@ inline Rational evaluate(const Coefficients& h, const Position& x) {
 inline Coefficients through(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b,
                             const std::array<Integer, 3>& c) {
   std::array<Integer, 3> u, v;
-  for (std::size_t k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+  }
   Coefficients h{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0], 0};
   h[3] = -(h[0] * a[0] + h[1] * a[1] + h[2] * a[2]);
   return h;
@@ -65,7 +68,11 @@ inline Coefficients through(const std::array<Integer, 3>& a, const std::array<In
 /// Where three planes meet; nothing where they do not in one point. By elimination, in rationals.
 inline std::optional<Position> meeting_point(const Coefficients& p, const Coefficients& q, const Coefficients& r) {
   std::array<std::array<Rational, 4>, 3> m;
-  for (std::size_t k = 0; k < 4; ++k) m[0][k] = p[k], m[1][k] = q[k], m[2][k] = r[k];
+  for (std::size_t k = 0; k < 4; ++k) {
+    m[0][k] = p[k];
+    m[1][k] = q[k];
+    m[2][k] = r[k];
+  }
   for (std::size_t column = 0; column < 3; ++column) {
     std::size_t pivot = column;
     while (pivot < 3 && m[pivot][column] == 0) ++pivot;

@@ -144,7 +144,9 @@ TEST(Point_traits, the_side_of_a_plane_and_of_its_opposite_are_opposite) {
     EXPECT_TRUE(traits.same_sense(traits.supporting_plane(0), traits.supporting_plane(0)));
     EXPECT_FALSE(traits.same_sense(traits.supporting_plane(0), traits.supporting_plane(0).opposite()));
   };
-  check(Gmpq(scene)), check(Double(scene)), check(Exact_traits(scene));
+  check(Gmpq(scene));
+  check(Double(scene));
+  check(Exact_traits(scene));
 }
 
 TEST(Point_traits, a_crossing_is_made_the_same_from_both_ends) {

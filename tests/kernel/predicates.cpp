@@ -236,7 +236,8 @@ void expect_stage(int bits, int normal_bits, int denominator_bits, Arithmetic ar
     Coefficients up = on, down = on;
     // One unit of the reduced row.
     const Integer common = gcd(gcd(on[0], on[1]), gcd(on[2], on[3]));
-    up[3] += common, down[3] -= common;
+    up[3] += common;
+    down[3] -= common;
     const Plane zero = grid.plane(on), front = grid.plane(up), behind = grid.plane(down);
     if (!meeting_point(grid.made[0], grid.made[1], grid.made[2])) continue;
     const Predicates predicates = grid.predicates();
@@ -395,7 +396,10 @@ TEST_P(Side_at_width, planes_that_do_not_meet_in_a_point_are_refused) {
     for (std::size_t k = 0; k < 4; ++k) sum[k] = 2 * p[k] + q[k];
     if (sum[0] == 0 && sum[1] == 0 && sum[2] == 0) continue;
     sum[3] += 7;  // no common line
-    grid.plane(p), grid.plane(q), grid.plane(parallel), grid.plane(sum);
+    grid.plane(p);
+    grid.plane(q);
+    grid.plane(parallel);
+    grid.plane(sum);
     const Predicates predicates = grid.predicates();
     const auto id = [&](std::size_t i) { return grid.handles[i].id(); };
     EXPECT_THROW(predicates.meet(id(0), id(1), id(2)), std::domain_error);
@@ -539,7 +543,9 @@ TEST(Meet, far_outside_the_range_the_doubles_say_nothing) {
 TEST(Meet, a_point_that_underflows_is_within_its_error) {
   // Coordinates of 1, 3, 5 on a grid of 2200 bits: times 2^-2200 they are no doubles.
   Grid grid(2200);
-  grid.plane({1, 1, 1, -9}), grid.plane({1, -1, 2, -8}), grid.plane({2, 1, -1, 0});
+  grid.plane({1, 1, 1, -9});
+  grid.plane({1, -1, 2, -8});
+  grid.plane({2, 1, -1, 0});
   grid.plane({power_of_two(4300) + 1, 3, 5, -power_of_two(4300) - 35});
   const Predicates predicates = grid.predicates();
   const std::optional<kernel_test::Position> x = meeting_point(grid.made[0], grid.made[1], grid.made[2]);
@@ -562,8 +568,10 @@ TEST(Filter, of_sides_of_vertices_in_range_fewer_than_one_in_a_thousand_fail) {
         if (!(std::fabs(v.x) < range && std::fabs(v.y) < range && std::fabs(v.z) < range) || v.error == infinity)
           continue;
         for (std::size_t l = 0; l < 8; ++l)
-          if (l < i || l > i + 2)
-            ++asked, failed += !CGAL::is_certain(Predicates::side_filtered(v, predicates.prepare(grid.handles[l])));
+          if (l < i || l > i + 2) {
+            ++asked;
+            failed += !CGAL::is_certain(Predicates::side_filtered(v, predicates.prepare(grid.handles[l])));
+          }
       }
     }
     EXPECT_GT(asked, 2000u);
@@ -580,8 +588,9 @@ TEST(Filter, no_vertex_in_range_has_doubles_that_say_nothing_but_for_near_parall
     const Bundle bundle(random, 26, 4);
     for (int i = 0; i < 3; ++i) grid.plane(bundle.plane(random, 40));
     if (!meeting_point(grid.made[0], grid.made[1], grid.made[2])) continue;
-    ++all, silent +=
-           grid.predicates().meet(grid.handles[0].id(), grid.handles[1].id(), grid.handles[2].id()).error == infinity;
+    ++all;
+    silent +=
+        grid.predicates().meet(grid.handles[0].id(), grid.handles[1].id(), grid.handles[2].id()).error == infinity;
   }
   EXPECT_LT(static_cast<double>(silent), 1e-3 * static_cast<double>(all));
 }
@@ -631,7 +640,9 @@ TEST(Bit_budget, no_determinant_of_planes_through_the_corners_of_the_grid_exceed
     std::vector<std::array<Integer, 3>> corners;
     for (int i = 0; i < 8; ++i)
       corners.push_back({i & 1 ? m : Integer(-m), i & 2 ? m : Integer(-m), i & 4 ? m : Integer(-m)});
-    corners.push_back({m - 1, -m, 1 - m}), corners.push_back({-m, m - 1, m}), corners.push_back({m, 1 - m, -m});
+    corners.push_back({m - 1, -m, 1 - m});
+    corners.push_back({-m, m - 1, m});
+    corners.push_back({m, 1 - m, -m});
     Random random(static_cast<std::uint64_t>(bits));
     for (int round = 0; round < 6; ++round) {
       Grid grid(bits);
@@ -730,7 +741,8 @@ TEST(Side_of_a_located_point, agrees_with_rationals_on_the_plane_and_beside_it) 
             const Sign truth = sign(evaluate(grid.made[l], {rational(x[0], w), rational(x[1], w), rational(x[2], w)}));
             ASSERT_EQ(predicates.side(q, opposite ? grid.handles[l].opposite() : grid.handles[l], counts),
                       opposite ? -truth : truth);
-            filtered += counts.filtered, by_gmp += counts.gmp;
+            filtered += counts.filtered;
+            by_gmp += counts.gmp;
             if (truth == CGAL::ZERO) {
               ASSERT_EQ(deciding_stage(counts), "gmp");
             }

@@ -330,9 +330,12 @@ TEST(Scene_policy, faces_that_differ_in_a_hole_are_no_duplicates) {
   Polygon_soup soup = soup_of(
       {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {1, 1, 0}, {2, 1, 0}, {1, 2, 0}, {5, 5, 0}, {6, 5, 0}, {5, 6, 0}});
   soup.add_face({0, 1, 2, 3});
-  soup.add_face({0, 1, 2, 3}), soup.add_hole({4, 5, 6});
-  soup.add_face({0, 1, 2, 3}), soup.add_hole({7, 8, 9});
-  soup.add_face({0, 1, 2, 3}), soup.add_hole({5, 6, 4});
+  soup.add_face({0, 1, 2, 3});
+  soup.add_hole({4, 5, 6});
+  soup.add_face({0, 1, 2, 3});
+  soup.add_hole({7, 8, 9});
+  soup.add_face({0, 1, 2, 3});
+  soup.add_hole({5, 6, 4});
   const Scene scene(soup);
   ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
   EXPECT_EQ(scene.set_aside().size(), 1u);
@@ -340,7 +343,8 @@ TEST(Scene_policy, faces_that_differ_in_a_hole_are_no_duplicates) {
 }
 TEST(Scene_policy, a_duplicate_of_a_face_set_aside_is_set_aside_for_the_same_reason) {
   Polygon_soup soup = soup_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
-  soup.add_face({0, 1, 2}), soup.add_face({0, 1, 2});
+  soup.add_face({0, 1, 2});
+  soup.add_face({0, 1, 2});
   const Scene scene(soup);
   EXPECT_EQ(why(scene, 0), "zero area");
   EXPECT_EQ(why(scene, 1), "zero area");
@@ -363,7 +367,9 @@ TEST(Scene_policy, ids_are_places_in_the_file_also_after_faces_set_aside) {
 
 TEST(Scene_policy, coplanar_faces_share_a_plane_and_know_which_way_they_face) {
   Polygon_soup soup;
-  add_cube(soup, 0, 0, 0, 3), add_cube(soup, 3, 0, 0, 3), add_cube(soup, 10, 0, 0, 3);
+  add_cube(soup, 0, 0, 0, 3);
+  add_cube(soup, 3, 0, 0, 3);
+  add_cube(soup, 10, 0, 0, 3);
   const Scene scene(soup);
   std::vector<std::uint32_t> ids;
   for (const Piece& piece : scene.pieces()) ids.push_back(piece.support.id());
@@ -402,8 +408,10 @@ void expect_exact_points(const Polygon_soup& soup, const Scene& scene) {
   // The box of all points.
   std::array<Exact_point, 2> box{soup.point(0), soup.point(0)};
   for (Point_id p = 0; p < soup.point_count(); ++p)
-    for (std::size_t k = 0; k < 3; ++k)
-      box[0][k] = std::min(box[0][k], soup.point(p)[k]), box[1][k] = std::max(box[1][k], soup.point(p)[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      box[0][k] = std::min(box[0][k], soup.point(p)[k]);
+      box[1][k] = std::max(box[1][k], soup.point(p)[k]);
+    }
   ASSERT_EQ(scene.box(), box);
 }
 
@@ -569,9 +577,11 @@ TEST(Scene_grid, a_scene_of_one_point_is_that_point) {
 }
 TEST(Scene_grid, decimals_are_what_the_file_says) {
   Polygon_soup soup;
-  for (const long n : {1l, 2l, 3l})
-    soup.coordinates.push_decimal(n, -1), soup.coordinates.push_decimal(n * n, -2),
-        soup.coordinates.push_decimal(0, -9);
+  for (const long n : {1l, 2l, 3l}) {
+    soup.coordinates.push_decimal(n, -1);
+    soup.coordinates.push_decimal(n * n, -2);
+    soup.coordinates.push_decimal(0, -9);
+  }
   soup.add_face({0, 1, 2});
   const Scene scene(soup);
   EXPECT_EQ(scene.position(0)[0], Rational(1, 10));
@@ -581,7 +591,9 @@ TEST(Scene_grid, decimals_are_what_the_file_says) {
 TEST(Scene_grid, equal_points_are_merged_whatever_they_are_written_as) {
   Polygon_soup soup;
   soup.add_point(0.5, 0.25, 1.0);
-  soup.coordinates.push_decimal(5, -1), soup.coordinates.push_decimal(250, -3), soup.coordinates.push_decimal(1, 0);
+  soup.coordinates.push_decimal(5, -1);
+  soup.coordinates.push_decimal(250, -3);
+  soup.coordinates.push_decimal(1, 0);
   soup.add_point(Rational(1, 2), Rational(1, 4), Rational(1));
   const Scene scene(soup);
   EXPECT_EQ(scene.counters().points_read, 3u);
@@ -589,7 +601,8 @@ TEST(Scene_grid, equal_points_are_merged_whatever_they_are_written_as) {
 }
 TEST(Scene_grid, bits_are_those_of_the_largest_coordinate_at_the_common_scale) {
   Polygon_soup soup;
-  soup.add_point(0.5, 0.25, 8.0), soup.add_point(0.0, -100.75, 3.0);
+  soup.add_point(0.5, 0.25, 8.0);
+  soup.add_point(0.0, -100.75, 3.0);
   const Scene scene(soup);
   EXPECT_EQ(scene.scale_bits(), 2);
   EXPECT_EQ(scene.bits(), 9);  // 403
@@ -601,7 +614,8 @@ TEST(Scene_planes, coefficients_in_the_file_and_on_the_grid_are_one_plane) {
   Polygon_soup soup;
   for (const auto& p : {std::array<long, 3>{1000001, 7, 3}, {1000011, 27, -3}, {1000005, -1, 9}, {1000021, 3, 5}})
     soup.add_point(tenth(p[0]), tenth(p[1]), tenth(p[2]));
-  soup.add_face({0, 1, 2}), soup.add_face({0, 2, 3});
+  soup.add_face({0, 1, 2});
+  soup.add_face({0, 2, 3});
   Scene scene(soup);
   const std::array<Integer, 4> own{3, -2, 5, 17};
   const Plane plane = scene.add_plane(own);
@@ -625,7 +639,9 @@ TEST(Scene_planes, coefficients_in_the_file_and_on_the_grid_are_one_plane) {
 
 TEST(Scene_planes, a_located_point_comes_back_exactly_and_knows_its_error) {
   Polygon_soup soup;
-  soup.add_point(0.1, 0.2, 0.3), soup.add_point(1e3, 5.0, 7.0), soup.add_point(-3.0, 2e3, 1.0);
+  soup.add_point(0.1, 0.2, 0.3);
+  soup.add_point(1e3, 5.0, 7.0);
+  soup.add_point(-3.0, 2e3, 1.0);
   soup.add_face({0, 1, 2});
   const Scene scene(soup);
   for (const Exact_point& p :

@@ -46,7 +46,11 @@ Polygon_soup random_soup(Random& random, int faces, int bits, Number number) {
   for (int f = 0; f < faces; ++f) {
     if (f % 3 == 0) {  // a parallelogram
       long o[3], u[3], v[3];
-      for (int k = 0; k < 3; ++k) o[k] = coordinate() / 2, u[k] = coordinate() / 4, v[k] = coordinate() / 4;
+      for (int k = 0; k < 3; ++k) {
+        o[k] = coordinate() / 2;
+        u[k] = coordinate() / 4;
+        v[k] = coordinate() / 4;
+      }
       const Point_id a = add(o[0], o[1], o[2]), b = add(o[0] + u[0], o[1] + u[1], o[2] + u[2]);
       const Point_id c = add(o[0] + u[0] + v[0], o[1] + u[1] + v[1], o[2] + u[2] + v[2]),
                      d = add(o[0] + v[0], o[1] + v[1], o[2] + v[2]);
@@ -112,7 +116,8 @@ class Chain {
       for (Rational& x : d) x /= lead;
       const Vector m = cross(p, d);
       const std::array<Rational, 6> line{d[0], d[1], d[2], m[0], m[1], m[2]};
-      change(line, q, times), change(line, p, -times);
+      change(line, q, times);
+      change(line, p, -times);
     }
   }
   bool empty() const { return net_.empty(); }

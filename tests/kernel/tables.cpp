@@ -166,8 +166,11 @@ TEST(Plane_table, one_plane_has_one_id_whatever_points_and_orientation_it_was_ma
     for (int round = 0; round < 30; ++round) {
       // Points of one plane: o + i u + j v.
       std::array<Integer, 3> o, u, v;
-      for (std::size_t k = 0; k < 3; ++k)
-        o[k] = uniform(random, bits - 4), u[k] = uniform(random, bits - 4), v[k] = uniform(random, bits - 4);
+      for (std::size_t k = 0; k < 3; ++k) {
+        o[k] = uniform(random, bits - 4);
+        u[k] = uniform(random, bits - 4);
+        v[k] = uniform(random, bits - 4);
+      }
       const auto at = [&](int i, int j) {
         return std::array<Integer, 3>{o[0] + i * u[0] + j * v[0], o[1] + i * u[1] + j * v[1],
                                       o[2] + i * u[2] + j * v[2]};
@@ -266,7 +269,8 @@ TEST(Plane_table, rows_hold_every_plane_through_three_grid_points) {
     std::vector<std::array<Integer, 3>> corners;
     for (int i = 0; i < 8; ++i)
       corners.push_back({i & 1 ? m : Integer(-m), i & 2 ? m : Integer(-m), i & 4 ? m : Integer(-m)});
-    corners.push_back({m - 1, 1 - m, m}), corners.push_back({-m, m, m - 1});
+    corners.push_back({m - 1, 1 - m, m});
+    corners.push_back({-m, m, m - 1});
     for (const auto& a : corners)
       for (const auto& b : corners)
         for (const auto& c : corners) {
@@ -372,8 +376,10 @@ TEST(Line_table, one_line_has_one_id_and_its_coordinates_are_canonical) {
     Line_table lines(grid.points);
     for (int round = 0; round < 60; ++round) {
       std::array<Integer, 3> o, u;
-      for (std::size_t k = 0; k < 3; ++k)
-        o[k] = uniform(random, bits - 3), u[k] = random() % 3 == 0 ? Integer(0) : uniform(random, bits - 4);
+      for (std::size_t k = 0; k < 3; ++k) {
+        o[k] = uniform(random, bits - 3);
+        u[k] = random() % 3 == 0 ? Integer(0) : uniform(random, bits - 4);
+      }
       if (u[0] == 0 && u[1] == 0 && u[2] == 0) continue;
       const auto at = [&](int i) { return grid.point({o[0] + i * u[0], o[1] + i * u[1], o[2] + i * u[2]}); };
       const Line line = lines.through(at(0), at(1));

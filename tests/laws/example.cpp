@@ -24,10 +24,12 @@ harness::Answer in_front(const harness::Posed_scene& posed) {
 
 std::string try_it(std::size_t scenes) {
   harness::Subject subject;
-  subject.name = "in front", subject.answer = in_front;
+  subject.name = "in front";
+  subject.answer = in_front;
   harness::add_laws(subject, {"permute", "translate", "rotate", "bystander"});  // what must change nothing
   harness::Fuzz_options options;
-  options.scenes = scenes, options.family = "edge_on";
+  options.scenes = scenes;
+  options.family = "edge_on";
   harness::Fuzz_summary summary;
   const auto found = harness::fuzz(subject, options, summary);
   if (!found) return std::to_string(summary.cases) + " cases, nothing found";

@@ -52,7 +52,8 @@ TEST(Fuzz_options, keep_scenes_out_that_are_too_large_or_have_no_source) {
     return all_alike(posed);
   };
   harness::Fuzz_options options;
-  options.scenes = 100, options.most_faces = 4;
+  options.scenes = 100;
+  options.most_faces = 4;
   harness::Fuzz_summary summary;
   const auto found = harness::fuzz(subject, options, summary);
   EXPECT_FALSE(found) << found->disagreement.what;
@@ -71,7 +72,9 @@ TEST(Fuzz_options, shards_run_together_what_one_run_does_and_each_its_own) {
   };
   const auto asked_by = [&](std::size_t shard, std::size_t shards) {
     harness::Fuzz_options options;
-    options.scenes = 50, options.shard = shard, options.shards = shards;
+    options.scenes = 50;
+    options.shard = shard;
+    options.shards = shards;
     harness::Fuzz_summary summary;
     asked.clear();
     EXPECT_FALSE(harness::fuzz(subject, options, summary));
@@ -100,7 +103,8 @@ TEST(Fuzz_options, from_any_place_the_same_sequence_goes_on_to_the_same_finding)
   std::vector<harness::Fuzz_place> places;
   std::vector<harness::Fuzz_summary> summaries;
   harness::Fuzz_options options;
-  options.shard = 1, options.shards = 2;
+  options.shard = 1;
+  options.shards = 2;
   harness::Fuzz_summary whole;
   options.at = [&](const harness::Fuzz_place& at) {
     places.push_back(at);

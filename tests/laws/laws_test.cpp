@@ -139,13 +139,15 @@ TEST(Laws, partitions_are_compared_by_who_is_together) {
 
 TEST(Laws, what_one_answer_leaves_out_is_not_compared) {
   Answer a, b;
-  a.labels = {1, 2, Answer::none}, b.labels = {1, Answer::none, 7};
+  a.labels = {1, 2, Answer::none};
+  b.labels = {1, Answer::none, 7};
   EXPECT_EQ(harness::compared(a, b, "a", "b").state, Outcome::State::passed);
   a.undecided = 1;
   EXPECT_EQ(harness::compared(a, b, "a", "b").state, Outcome::State::undecided);
   b.labels[0] = 0;
   EXPECT_EQ(harness::compared(a, b, "a", "b").state, Outcome::State::failed);
-  a.labels = {1}, b.labels = {1, 1};
+  a.labels = {1};
+  b.labels = {1, 1};
   EXPECT_EQ(harness::compared(a, b, "a", "b").state, Outcome::State::failed) << "answers about different scenes";
 }
 
@@ -154,7 +156,9 @@ TEST(Laws, are_not_for_what_depends_on_the_axes_or_on_pieces) {
   const auto state = [&](const char* name, bool planar, bool is_partition, bool whole) {
     const auto answer = [=](const Posed_scene& scene) {
       Answer other = labels(side_of_eye)(scene);
-      other.planar = planar, other.is_partition = is_partition, other.whole = whole;
+      other.planar = planar;
+      other.is_partition = is_partition;
+      other.whole = whole;
       return other;
     };
     generate::Random random(1);
@@ -193,7 +197,8 @@ TEST(Laws, know_nothing_of_a_face_of_which_a_part_is_left_out) {
   Answer of_parts;
   for (const bool is_partition : {false, true})
     for (const auto& parts : {std::pair(Answer::none, 1u), std::pair(1u, Answer::none)}) {
-      of_parts.is_partition = is_partition, of_parts.labels = {parts.first, parts.second, 7};
+      of_parts.is_partition = is_partition;
+      of_parts.labels = {parts.first, parts.second, 7};
       EXPECT_EQ(harness::pulled_back(image, of_parts, 1).labels, (std::vector<std::uint32_t>{Answer::none}));
     }
 }
@@ -261,7 +266,8 @@ TEST(Cases, that_make_no_sense_are_told) {
 /// Wrong where a face has a corner with x + y = 1 and the eye is in its plane.
 harness::Subject wrong_now_and_then() {
   harness::Subject subject;
-  subject.name = "wrong", subject.answer = labels(side_of_eye);
+  subject.name = "wrong";
+  subject.answer = labels(side_of_eye);
   subject.checks = {{"planted", "", [](const Posed_scene& posed, const Answer& answer, generate::Random&) {
                        for (Face_id f = 0; f < posed.soup.face_count(); ++f)
                          for (const Exact_point& p : corners_of(posed.soup, f))
@@ -303,7 +309,8 @@ TEST(Fuzz, finds_a_planted_fault_replays_it_by_name_and_makes_it_small) {
 
 TEST(Fuzz, goes_on_where_nothing_is_wrong_and_counts_what_it_does) {
   harness::Subject subject;
-  subject.name = "right", subject.answer = [](const Posed_scene& posed) {
+  subject.name = "right";
+  subject.answer = [](const Posed_scene& posed) {
     Answer answer;
     answer.labels.assign(posed.soup.face_count(), 4);
     return answer;
@@ -339,7 +346,8 @@ TEST(Fuzz, an_exception_and_a_rejected_certificate_are_findings) {
   const auto found = harness::fuzz(subject, options, summary);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->disagreement.check, "certificate");
-  options.family = "rooms", options.most_faces = 1000;
+  options.family = "rooms";
+  options.most_faces = 1000;
   const auto thrown = harness::fuzz(subject, options, summary);
   ASSERT_TRUE(thrown);
   EXPECT_EQ(thrown->disagreement.what, "throws: too many");

@@ -129,7 +129,8 @@ TEST(Volumes, that_are_not_convex_at_their_first_faces_are_none) {
   for (const long z : {0, 1})
     for (const auto& [x, y] : {std::pair(0, 0), {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}) room.add_point(x, y, z);
   for (const Point_id i : {2u, 3u, 0u, 1u, 4u, 5u}) room.add_face({i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6});
-  room.add_face({5, 4, 3, 2, 1, 0}), room.add_face({6, 7, 8, 9, 10, 11});
+  room.add_face({5, 4, 3, 2, 1, 0});
+  room.add_face({6, 7, 8, 9, 10, 11});
   EXPECT_NE(refusal_of(room).find("both sides"), std::string::npos) << refusal_of(room);
 }
 
@@ -146,8 +147,11 @@ TEST(Volumes, that_are_none_are_told_with_a_face) {
   EXPECT_EQ(refusal_of(without(two, 8)).substr(0, 52), "face 6 and what shares points with it do not close u");
   EXPECT_NE(refusal_of(corpus_scene("general/l_room.off")).find("both sides"), std::string::npos);
   Polygon_soup flat;
-  flat.add_point(0, 0, 0), flat.add_point(1, 0, 0), flat.add_point(0, 1, 0);
-  flat.add_face({0, 1, 2}), flat.add_face({2, 1, 0});
+  flat.add_point(0, 0, 0);
+  flat.add_point(1, 0, 0);
+  flat.add_point(0, 1, 0);
+  flat.add_face({0, 1, 2});
+  flat.add_face({2, 1, 0});
   EXPECT_NE(refusal_of(flat), "");
 }
 

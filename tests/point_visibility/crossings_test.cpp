@@ -136,7 +136,10 @@ std::set<Segment> crossings_seen(const oracle::Flats& flats, const Exact_point& 
           open.reset();
         }
         if (faces.empty()) continue;
-        if (!open) open = Segment{along(x0, *at, d), {}, {faces.begin(), faces.end()}}, open_planes = planes;
+        if (!open) {
+          open = Segment{along(x0, *at, d), {}, {faces.begin(), faces.end()}};
+          open_planes = planes;
+        }
         open->to = along(x0, *next, d);
       }
     }

@@ -216,7 +216,9 @@ inline std::optional<std::uint32_t> first_hit(const Flats& flats, const Exact_po
     if (inside == 0) is_generic = false;
     if (inside < 0) continue;
     if (!first || *t < nearest) {
-      first = i, nearest = *t, tie = false;
+      first = i;
+      nearest = *t;
+      tie = false;
     } else if (*t == nearest) {
       if (!coplanar(flats[*first], flats[i])) tie = true;
       else if (wins(flats[i], flats[*first], eye)) first = i;
@@ -401,7 +403,8 @@ inline std::optional<Interval> blocked_by(const Flat& flat, const Exact_point& e
     if (sgn(t) == 0) continue;
     const Rational s = Rational(p[1] / t);
     if (!blocked) blocked = Interval{s, s};
-    blocked->from = std::min(blocked->from, s), blocked->to = std::max(blocked->to, s);
+    blocked->from = std::min(blocked->from, s);
+    blocked->to = std::max(blocked->to, s);
   }
   if (!short_of_edge || !blocked || blocked->from == blocked->to) return std::nullopt;
   return blocked;
@@ -449,7 +452,8 @@ inline Exact_point random_direction_at(const Flats& flats, const Exact_point& ey
     Rational total = 0;
     for (const Exact_point& p : corners) {
       const Rational weight = static_cast<long>(random.between(1, 1000));
-      sum = along(sum, weight, p), total += weight;
+      sum = along(sum, weight, p);
+      total += weight;
     }
     const Exact_point v = minus(along(Exact_point{0, 0, 0}, Rational(1 / total), sum), eye);
     if (!is_zero(v)) return v;

@@ -326,7 +326,8 @@ Exact_point inside_of(const Points& polygon, Random& random) {
   Rational total = 0;
   for (const Exact_point& p : polygon) {
     const Rational weight = static_cast<long>(random.between(1, 100003));
-    sum = along(sum, weight, p), total += weight;
+    sum = along(sum, weight, p);
+    total += weight;
   }
   return along(at(0, 0, 0), Rational(1 / total), sum);
 }
@@ -360,7 +361,9 @@ TEST_P(Oracle_in_family, is_hit_first_in_generic_directions_where_the_part_is_se
       bool generic = false;
       const std::optional<std::uint32_t> first =
           k == 0 ? first_hit(scene, eye, direction, &generic) : first_hit(flats, eye, direction, &generic);
-      ++directions, generic_ones += generic, hits += generic && first.has_value();
+      ++directions;
+      generic_ones += generic;
+      hits += generic && first.has_value();
       if (!generic) continue;
       for (std::uint32_t i = 0; i < flats.size(); ++i) {
         const std::optional<Rational> t = crossing(flats[i], eye, direction);
@@ -448,7 +451,8 @@ sightline::Flat_polygon on_cube_face(const Points& polygon, const Exact_point& e
   for (const std::size_t other : {(axis + 1) % 3, (axis + 2) % 3})
     for (const long side : {1, -1}) {
       Exact_point normal = at(0, 0, 0);
-      normal[axis] = sign, normal[other] = side;
+      normal[axis] = sign;
+      normal[other] = side;
       cut = clipped(cut, {normal, dot(normal, eye)});
     }
   std::vector<sightline::Flat_polygon::Point> points;
@@ -556,10 +560,12 @@ TEST(Scene_families, hold_what_they_are_for) {
       for (const Case& made : view_scenes::make(family, seed)) {
         const Scene scene(made.soup);
         const Flats flats = flats_of(scene);
-        ++cases, largest = std::max(largest, made.soup.face_count());
+        ++cases;
+        largest = std::max(largest, made.soup.face_count());
         for (std::size_t i = 0; i < flats.size(); ++i) {
           const bool in_plane = sgn(flats[i].height(made.eye)) == 0;
-          edge_on += in_plane, holding += in_plane && flats[i].holds(made.eye) >= 0;
+          edge_on += in_plane;
+          holding += in_plane && flats[i].holds(made.eye) >= 0;
           for (std::size_t j = 0; j < flats.size(); ++j) {
             if (i == j) continue;
             if (coplanar(flats[i], flats[j])) {

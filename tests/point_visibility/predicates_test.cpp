@@ -121,7 +121,9 @@ TEST(Exact_view, tells_points_off_a_plane_by_less_than_doubles_know) {
     Exact_point near{1, 1, 1};
     near[2] += exact(off);
     const Point_id e = soup.add_point(near[0], near[1], near[2]);
-    soup.add_face({a, b, c}), soup.add_face({a, b, d}), soup.add_face({e, b, d});
+    soup.add_face({a, b, c});
+    soup.add_face({a, b, d});
+    soup.add_face({e, b, d});
     const Scene scene(soup);
     const Exact_view view(scene, {Rational(1, 2), Rational(1, 3), 9});
     Predicate_counts counts;

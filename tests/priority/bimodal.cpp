@@ -30,7 +30,8 @@ Points lattice_polygon(long n, const std::array<long, 3>& u, const std::array<lo
     const long dx = any(reach), dy = any(reach);
     if ((dx == 0 && dy == 0) || (dx * bias_x + dy * bias_y < 0 && random() % 8 != 0)) continue;
     edges.emplace_back(dx, dy);
-    x += dx, y += dy;
+    x += dx;
+    y += dy;
   }
   if (x != 0 || y != 0) edges.emplace_back(-x, -y);
   const auto half = [](const std::pair<long, long>& d) { return d.second < 0 || (d.second == 0 && d.first < 0); };
@@ -41,7 +42,8 @@ Points lattice_polygon(long n, const std::array<long, 3>& u, const std::array<lo
   x = y = 0;
   for (const auto& [dx, dy] : edges) {
     corners.push_back(at(x * u[0] + y * v[0], x * u[1] + y * v[1], x * u[2] + y * v[2]));
-    x += dx, y += dy;
+    x += dx;
+    y += dy;
   }
   std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(random() % corners.size()), corners.end());
   return corners;
@@ -79,7 +81,9 @@ TEST(Bimodal, finds_the_highest_corner_of_any_polygon_over_any_plane) {
             highest_corner(scene.traits, turned_round(polygon, store), scene.traits.prepare(plane), counts);
         ASSERT_EQ(heights[polygon.size - 1 - from_behind], most) << "turned round, trial " << trial << ", plane " << j;
         const auto highest = std::count(heights.begin(), heights.end(), most);
-        ++compared, level += highest > 1, parallel += highest == static_cast<long>(polygon.size);
+        ++compared;
+        level += highest > 1;
+        parallel += highest == static_cast<long>(polygon.size);
       }
   }
   EXPECT_GT(compared, 4000u);

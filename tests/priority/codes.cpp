@@ -161,7 +161,9 @@ TEST(Pair_code, tells_the_order_of_all_faces_that_a_ray_pierces_and_that_do_not_
       const Exact_point target = inside_of(scene.flats[random.below(scene.flats.size())].corners, random),
                         eye = eye_towards(scene.flats, target, ray, random);
       const Hits hits = pierced(scene.flats, eye, target);
-      two += hits.size() >= 2, three += hits.size() >= 3, four += hits.size() >= 4;
+      two += hits.size() >= 2;
+      three += hits.size() >= 3;
+      four += hits.size() >= 4;
       for (std::size_t a = 0; a < hits.size(); ++a)
         for (std::size_t b = 0; b < hits.size(); ++b) {
           const std::uint32_t i = hits[a].second, j = hits[b].second;
@@ -306,7 +308,8 @@ TEST(Pair_code, mirrors_with_the_scene_exchanges_with_the_arguments_and_reverses
         ASSERT_EQ(in_mirror[i][j].precedence, code) << "scene " << k << ": " << i << ", " << j;
         ASSERT_EQ(elsewhere[i][j].precedence, code) << "scene " << k << ": " << i << ", " << j;
         ASSERT_EQ(from_behind[i][j].precedence, exchanged(code)) << "scene " << k << ": " << i << ", " << j;
-        ordered += code == Precedence::first, by_plane += code == Precedence::by_plane;
+        ordered += code == Precedence::first;
+        by_plane += code == Precedence::by_plane;
         if (code != Precedence::by_plane) continue;
         for (const Pair_code* plane :
              {&from_behind[i][j],

@@ -20,20 +20,23 @@ using test_scenes::sample;
 Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits, const Exact_point& eye,
                                  const Eye_order<Exact_traits>& order, bool on_view) {
   Order_certificate certificate;
-  certificate.eye = eye, certificate.on_view = on_view;
+  certificate.eye = eye;
+  certificate.on_view = on_view;
   std::set<Face_id> cut(scene.non_planar().begin(), scene.non_planar().end());
   for (const Piece& piece : scene.pieces())
     if (piece.number > 0) cut.insert(piece.face);
   for (const auto& polygon : order.polygons) {
     const Piece& piece = scene.pieces()[polygon.piece];
     Order_fragment& fragment = certificate.fragments.emplace_back();
-    fragment.face = piece.face, fragment.piece = piece.number;
+    fragment.face = piece.face;
+    fragment.piece = piece.number;
     for (const auto& corner : polygon) fragment.vertices.push_back(traits.position(*corner.vertex));
   }
   for (const Piece& piece : scene.pieces())
     if (cut.count(piece.face)) {
       Covering::Piece& part = certificate.pieces.emplace_back();
-      part.face = piece.face, part.piece = piece.number;
+      part.face = piece.face;
+      part.piece = piece.number;
       for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
     }
   for (const Set_aside& entry : scene.set_aside()) certificate.set_aside.push_back({entry.face, entry.why});
@@ -69,7 +72,8 @@ struct Ordered {
       }
       return c;
     };
-    order(false, true), order(true, true);
+    order(false, true);
+    order(true, true);
     const Eye_order_counters on_view = order(false, false), all = order(true, false);
     EXPECT_EQ(2 * on_view.edge_on, all.edge_on);
     EXPECT_GE(all.in_cycles, on_view.in_cycles);
@@ -124,12 +128,16 @@ TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
     const Exact_point a = given.scene.position(given.scene.corners(piece)[0].point),
                       b = given.scene.position(given.scene.corners(piece)[1].point);
     Exact_point in_plane, outside;
-    for (std::size_t i = 0; i < 3; ++i)
-      in_plane[i] = 3 * b[i] - 2 * a[i],
+    for (std::size_t i = 0; i < 3; ++i) {
+      in_plane[i] = 3 * b[i] - 2 * a[i];
       outside[i] = a[i] + (b[i] - a[(i + 1) % 3]) * ratio(7, 3) + ratio(static_cast<long>(k % 5), 11);
+    }
     for (const Exact_point& eye : {a, in_plane, outside}) {
       const Eye_order_counters c = given.check(eye);
-      cycles += c.cycles, edge_on += c.edge_on, cut += c.splits, whole += given.whole(c);
+      cycles += c.cycles;
+      edge_on += c.edge_on;
+      cut += c.splits;
+      whole += given.whole(c);
     }
   }
   EXPECT_GT(cycles, least(50u));

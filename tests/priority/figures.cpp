@@ -53,7 +53,10 @@ std::optional<std::vector<int>> priority_numbers(const Matrix& arcs) {
     bool raised = false;
     for (std::size_t i = 0; i < arcs.size(); ++i)
       for (std::size_t j = 0; j < arcs.size(); ++j)
-        if (arcs[i][j] && numbers[j] <= numbers[i]) numbers[j] = numbers[i] + 1, raised = true;
+        if (arcs[i][j] && numbers[j] <= numbers[i]) {
+          numbers[j] = numbers[i] + 1;
+          raised = true;
+        }
     if (!raised) return numbers;
   }
   return std::nullopt;
@@ -236,7 +239,8 @@ TEST(Figure_6, the_partial_priority_graph_of_figure_5_is_acyclic_and_has_a_consi
     std::size_t met = 0, undecided = 0;
     look_around(scene, 12, 3000, [&](std::uint32_t nearer, std::uint32_t farther) {
       EXPECT_LE(found.h(nearer), found.h(farther)) << nearer << " before " << farther;
-      ++met, undecided += found.h(nearer) == found.h(farther);
+      ++met;
+      undecided += found.h(nearer) == found.h(farther);
     });
     EXPECT_GT(met, 500u);
     EXPECT_GT(undecided, 50u);
@@ -261,7 +265,8 @@ struct Splitting {
     if (classify(scene.traits, polygon, cutter, scratch, counts) != Position::across)
       throw std::logic_error("the plane does not split the face");
     const auto [behind, front] = split(scene.traits, polygon, cutter, scratch, store);
-    scene.relation.add(behind), scene.relation.add(front);
+    scene.relation.add(behind);
+    scene.relation.add(front);
     return {scene.relation.size() - 2, scene.relation.size() - 1};
   }
   bool before(std::uint32_t a, std::uint32_t b) const {

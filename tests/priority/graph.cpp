@@ -143,7 +143,9 @@ TEST(Graph, explicit_and_implicit_have_the_components_of_the_closure_on_2500_deg
     if (HasFatalFailure()) return;
     std::size_t large = 0;
     for (const auto& set : components_by_closure(arcs)) large += set.size() > 1;
-    cyclic += large > 0, acyclic += large == 0, several += large > 1;
+    cyclic += large > 0;
+    acyclic += large == 0;
+    several += large > 1;
   }
   EXPECT_GT(cyclic, least(400u));
   EXPECT_GT(acyclic, least(400u));
@@ -172,7 +174,8 @@ TEST(Graph, explicit_and_implicit_have_the_components_of_the_closure_where_a_doz
     check(scene.relation, arcs);
     if (HasFatalFailure()) return;
     const Sets sets = components_by_closure(arcs);
-    faces += scene.flats.size(), several += sets.size() > 1;
+    faces += scene.flats.size();
+    several += sets.size() > 1;
   }
   EXPECT_GT(faces, 1500u);
   EXPECT_GT(several, 5u);

@@ -41,7 +41,8 @@ std::optional<Rational> goes_through(const Flat& face, const Exact_point& eye, c
   }
   const Rational t = height / -slope;
   const int where = face.holds(along(eye, t, d));
-  met.on_boundary += where == 0, met.pierced += where == 1;
+  met.on_boundary += where == 0;
+  met.pierced += where == 1;
   return where == 1 ? std::optional(t) : std::nullopt;
 }
 
@@ -114,9 +115,11 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
       view.eye = corner();
       view.eye[axis] -= static_cast<long>(side) * static_cast<long>(random.between(1, 4)) *
                         (kind % 2 == 0 ? Rational(1) : Rational(abs(size[0]) + abs(size[1]) + abs(size[2])));
-      view.look[axis] = side, view.right[(axis + 1) % 3] = random.chance(1, 2) ? 4 : -2,
+      view.look[axis] = side;
+      view.right[(axis + 1) % 3] = random.chance(1, 2) ? 4 : -2;
       view.up[(axis + 2) % 3] = random.chance(1, 2) ? 2 : -8;
-      view.width = 8, view.height = random.chance(1, 2) ? 8 : 16;
+      view.width = 8;
+      view.height = random.chance(1, 2) ? 8 : 16;
       break;
     }
     case 2:
@@ -130,14 +133,17 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
         const Rational away = ratio(random.between(1, 8), 4);
         view.eye = along(along(to, away, normal), beside, minus(c[0], c[1]));
       }
-      view.look = nearest(minus(to, view.eye)), view.right = nearest(minus(c[(k + 1) % c.size()], c[k])),
+      view.look = nearest(minus(to, view.eye));
+      view.right = nearest(minus(c[(k + 1) % c.size()], c[k]));
       view.up = lattice(3);
       if (random.chance(1, 3)) std::swap(view.right, view.up);
       view.width = 11;
       break;
     }
     case 4:
-      view.look = lattice(2), view.right = lattice(20), view.up = lattice(1);
+      view.look = lattice(2);
+      view.right = lattice(20);
+      view.up = lattice(1);
       break;  // at times zero, or without a right or an up
     case 5:   // in a face's plane, or at a corner; wide
       if (random.chance(1, 2)) {
@@ -146,7 +152,9 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
         const Rational across = times(8), lengthways = times(8);
         view.eye = along(along(first[0], lengthways, size), across, minus(first[2], first[0]));
       }
-      view.look = lattice(1), view.right = lattice(50), view.up = lattice(50);
+      view.look = lattice(1);
+      view.right = lattice(50);
+      view.up = lattice(50);
       break;
     default: {  // at a face from its front, out of square
       const Points& c = face();
@@ -155,8 +163,10 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
       view.eye = along(along(to, away, Flat(c).normal), beside, size);
       view.look = nearest(minus(to, view.eye));
       const Triple a = nearest(minus(c[1], c[0])), b = nearest(minus(c[2], c[1]));
-      for (std::size_t k = 0; k < 3; ++k)
-        view.right[k] = 1.75 * a[k] + 0.3 * b[k], view.up[k] = 0.7 * b[k] + 0.1 * view.look[k];
+      for (std::size_t k = 0; k < 3; ++k) {
+        view.right[k] = 1.75 * a[k] + 0.3 * b[k];
+        view.up[k] = 0.7 * b[k] + 0.1 * view.look[k];
+      }
     }
   }
   return view;
@@ -200,7 +210,8 @@ void check_sets(bool square, Met& met, std::uint64_t& exact) {
       ASSERT_TRUE(same_sets(found, expected))
           << "scene " << k << ", view " << v << ": look " << testing::PrintToString(view.look) << ", right "
           << testing::PrintToString(view.right) << ", up " << testing::PrintToString(view.up);
-      exact += found.exact, rays += found.rays;
+      exact += found.exact;
+      rays += found.rays;
       for (const auto& set : expected) several += set.size() > 1;
     }
   }
@@ -327,10 +338,15 @@ TEST(Pixel_statistics, are_what_counting_each_pixel_gives) {
       std::size_t best = 0;
       for (const std::uint32_t i : set)
         best += std::all_of(set.begin(), set.end(), [&](std::uint32_t j) { return priority[i] <= priority[j]; });
-      covered += !set.empty(), several += set.size() > 1, single += best == 1, all += set.size(), left += best;
+      covered += !set.empty();
+      several += set.size() > 1;
+      single += best == 1;
+      all += set.size();
+      left += best;
       image.push_back(static_cast<std::uint32_t>(best));
       ++by_size[{set.size(), best}];
-      some_left_out += best<set.size(), ties += best> 1;
+      some_left_out += best < set.size();
+      ties += best > 1;
     }
     const Pixel_statistics found = pixel_statistics(sets, priority);
     ASSERT_EQ((std::vector{found.covered, found.several, found.single, found.faces, found.left}),
@@ -380,7 +396,9 @@ void check_priorities(const Related& scene, const Priority_tree_options& options
   Flats flats;
   for (std::size_t i = 0; i < tree.polygons.size(); ++i) {
     if (all_cycles[i] == -2) continue;
-    polygons.push_back(tree.polygons[i]), number.push_back(all_numbers[i]), cycle.push_back(all_cycles[i]);
+    polygons.push_back(tree.polygons[i]);
+    number.push_back(all_numbers[i]);
+    cycle.push_back(all_cycles[i]);
     flats.emplace_back(priority_detail::positions(scene.traits, tree.polygons[i]));
   }
   for (std::size_t i = 0; i < number.size(); ++i)

@@ -65,7 +65,8 @@ Common common(const Flat& a, const Flat& b) {
       const Rational here = plane.height(p), next = plane.height(q);
       if (here == 0) add(p);
       if (sgn(here) * sgn(next) < 0) add(along(p, here / (here - next), minus(q, p)));
-      result.front |= here > 0, result.behind |= here < 0;
+      result.front |= here > 0;
+      result.behind |= here < 0;
     }
     return result;
   };
@@ -244,7 +245,8 @@ TEST(Relation, turning_all_faces_round_reverses_all_arcs) {
       ASSERT_EQ(scene.traits.face(i), turned.traits.face(i)) << "scene " << k;
       for (std::uint32_t j = 0; j < there.size(); ++j) {
         ASSERT_EQ(there[i][j], back[j][i]) << "scene " << k << ": " << i << ", " << j;
-        arcs += there[i][j] != 0, one_way += there[i][j] && !there[j][i];
+        arcs += there[i][j] != 0;
+        one_way += there[i][j] && !there[j][i];
       }
     }
   }
@@ -336,7 +338,8 @@ TEST(Relation, holds_for_the_fragments_of_a_tree_whose_corners_are_meets_of_plan
     for (const Drawn& fragment : built.tree.fragments) {
       relation.add(fragment.polygon);
       flats.emplace_back(built.corners(fragment.polygon));
-      ++fragments, cut += fragment.number > 0;
+      ++fragments;
+      cut += fragment.number > 0;
     }
     const Matrix expected = arcs_of(flats);
     ASSERT_TRUE(same_arcs(asked(relation), expected)) << "scene " << k;

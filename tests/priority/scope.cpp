@@ -67,7 +67,8 @@ bool in_a_closed_half_space(const std::vector<std::array<Number, 3>>& vectors) {
       bool front = false, behind = false;
       for (std::size_t k = 0; k < vectors.size() && !(front && behind); ++k) {
         const Number side = n[0] * vectors[k][0] + n[1] * vectors[k][1] + n[2] * vectors[k][2];
-        front |= side > 0, behind |= side < 0;
+        front |= side > 0;
+        behind |= side < 0;
       }
       if (!(front && behind)) return true;
     }
@@ -142,7 +143,10 @@ View_region random_region(const Related& scene, Random& random) {
     case 2: {
       const Exact_point p = corner(), q = corner();
       Exact_point low, high;
-      for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(p[k], q[k]), high[k] = std::max(p[k], q[k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(p[k], q[k]);
+        high[k] = std::max(p[k], q[k]);
+      }
       return View_region::box(low, high);
     }
     default:
@@ -179,7 +183,8 @@ TEST(Scope, of_a_region_has_the_arcs_whose_eyes_no_plane_separates_from_it) {
                                       [&](const Exact_point& p) { return scene.flats[i].height(p) > 0; });
         ASSERT_EQ(relation.on_view(i), seen) << "scene " << k << ", face " << i;
       }
-      present += count_arcs(found), absent += whole - count_arcs(found);
+      present += count_arcs(found);
+      absent += whole - count_arcs(found);
     }
   }
   EXPECT_GT(present, least(1000u));
@@ -206,10 +211,12 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
         for (std::size_t j = 0; j < found.size(); ++j)
           if (at_parameter[i] && at_parameter[j] && *at_parameter[i] < *at_parameter[j]) {
             ASSERT_TRUE(found[i][j]) << "scene " << k << ": " << i << " before " << j;
-            met[i][j] = 1, ++witnesses;
+            met[i][j] = 1;
+            ++witnesses;
           }
     }
-    proven += count_arcs(met), arcs += count_arcs(found);
+    proven += count_arcs(met);
+    arcs += count_arcs(found);
   }
   EXPECT_GT(witnesses, least(1000u));
   EXPECT_GT(2 * proven, arcs) << "most arcs are met";
@@ -309,7 +316,8 @@ TEST(Scope, graphs_of_regions_and_rays_have_the_components_of_the_closure) {
         ASSERT_TRUE(trees.from[face] == face || expected[trees.from[face]][face]) << "scene " << k;
         ASSERT_TRUE(trees.to[face] == face || expected[face][trees.to[face]]) << "scene " << k;
       }
-      cyclic += found.cyclic(), arcs += written.arc_count();
+      cyclic += found.cyclic();
+      arcs += written.arc_count();
     };
     check(Region(scene.relation, random_region(scene, random)));
     const Exact_point eye = lattice_point(random, 5), direction = minus(inside_of(scene.flats[0].corners, random), eye);
@@ -441,7 +449,8 @@ TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corne
     if (scene.flats.size() < 2) continue;
     const Matrix found = from(scene, View_region::eye(at(0, 0, 0)));
     ASSERT_TRUE(same_arcs(found, arcs_from(scene.flats, {at(0, 0, 0)}))) << trial;
-    arcs += count_arcs(found), whole += count_arcs(arcs_of(scene.flats));
+    arcs += count_arcs(found);
+    whole += count_arcs(arcs_of(scene.flats));
   }
   EXPECT_GT(arcs, least(100u));
   EXPECT_GT(whole, arcs + 100);

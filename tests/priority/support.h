@@ -154,7 +154,9 @@ testing::AssertionResult right_components(const Components& found, const Matrix&
     for (const std::uint32_t face : set)
       if (found.h(face) != c)
         return testing::AssertionFailure() << "h(" << face << ") = " << found.h(face) << " in component " << c;
-    members += set.size(), largest = std::max(largest, set.size()), cyclic += set.size() > 1;
+    members += set.size();
+    largest = std::max(largest, set.size());
+    cyclic += set.size() > 1;
     sets.insert(set);
   }
   if (members != arcs.size()) return testing::AssertionFailure() << members << " members";
@@ -228,7 +230,8 @@ inline Exact_point point_of(const Points& points, Random& random) {
   while (total == 0) {
     for (const Exact_point& p : points) {
       const long weight = sparse && random.chance(2, 3) ? 0 : static_cast<long>(random.between(0, 3));
-      sum = along(sum, weight, p), total += weight;
+      sum = along(sum, weight, p);
+      total += weight;
     }
   }
   for (Rational& x : sum) x /= total;
@@ -240,7 +243,8 @@ inline Exact_point inside_of(const Points& points, Random& random) {
   long total = 0;
   for (const Exact_point& p : points) {
     const long weight = static_cast<long>(random.between(1, 12));
-    sum = along(sum, weight, p), total += weight;
+    sum = along(sum, weight, p);
+    total += weight;
   }
   for (Rational& x : sum) x /= total;
   return sum;

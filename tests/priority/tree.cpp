@@ -52,7 +52,8 @@ Lies where(const Points& points, const Equation& plane) {
   Lies lies;
   for (const Exact_point& p : points) {
     const int side = sgn(plane.at_point(p));
-    lies.sides |= side < 0 ? 1 : side > 0 ? 2 : 0, lies.touches |= side == 0;
+    lies.sides |= side < 0 ? 1 : side > 0 ? 2 : 0;
+    lies.touches |= side == 0;
   }
   return lies;
 }
@@ -77,8 +78,10 @@ Matrix all_arcs(const Flats& flats) {
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < flats[i].corners.size(); ++k) {
         double value = -all[j].offset, size = std::abs(value);
-        for (std::size_t a = 0; a < 3; ++a)
-          value += all[j].normal[a] * all[i].corners[k][a], size += std::abs(all[j].normal[a] * all[i].corners[k][a]);
+        for (std::size_t a = 0; a < 3; ++a) {
+          value += all[j].normal[a] * all[i].corners[k][a];
+          size += std::abs(all[j].normal[a] * all[i].corners[k][a]);
+        }
         const int side =
             std::abs(value) > 1e-12 * size ? (value > 0) - (value < 0) : sgn(flats[j].height(flats[i].corners[k]));
         sides[i][j] = static_cast<char>(sides[i][j] | (side < 0 ? 1 : side > 0 ? 2 : 0));
@@ -142,9 +145,15 @@ class Laws {
       return fails() << c.cutting_planes << " cutting planes, " << c.splits << " splits";
     if (c.sequences != kinds_[0] || c.planes != kinds_[1] || c.cycles != kinds_[2] || c.free_planes != free_)
       return fails() << "nodes by kind";
-    sum.by_number += c.by_number, sum.by_plane += c.by_plane, sum.left += c.left, sum.splits += c.splits,
-        sum.cutting_planes += c.cutting_planes;
-    sum.sequences += c.sequences, sum.planes += c.planes, sum.cycles += c.cycles, sum.free_planes += c.free_planes;
+    sum.by_number += c.by_number;
+    sum.by_plane += c.by_plane;
+    sum.left += c.left;
+    sum.splits += c.splits;
+    sum.cutting_planes += c.cutting_planes;
+    sum.sequences += c.sequences;
+    sum.planes += c.planes;
+    sum.cycles += c.cycles;
+    sum.free_planes += c.free_planes;
     return testing::AssertionSuccess();
   }
 
@@ -187,9 +196,13 @@ class Laws {
   }
 
   Result nodes(const Related& scene, const Traits& traits, const Tree& tree) {
-    scene_ = &scene, traits_ = &traits, tree_ = &tree;
-    seen_.assign(tree.polygons.size(), 0), reached_.assign(tree.nodes.size(), 0);
-    kinds_ = {}, on_planes_ = in_cycles_ = free_ = 0;
+    scene_ = &scene;
+    traits_ = &traits;
+    tree_ = &tree;
+    seen_.assign(tree.polygons.size(), 0);
+    reached_.assign(tree.nodes.size(), 0);
+    kinds_ = {};
+    on_planes_ = in_cycles_ = free_ = 0;
     members_.clear();
     Result result = below(tree.slots.at(0), members_, 0);
     if (!result) return result;
@@ -294,10 +307,16 @@ template <class Traits>
 std::string in_words(const Traits& traits, const Priority_tree<Traits>& tree) {
   std::string words;
   const auto say = [&](const auto& x) { words += testing::PrintToString(x) + ' '; };
-  for (const auto& node : tree.nodes)
-    say(static_cast<int>(node.kind)), say(node.plane.free), say(node.plane.face.id()), say(node.plane.face.flipped()),
-        say(node.first), say(node.count);
-  say(tree.slots), say(tree.turned);
+  for (const auto& node : tree.nodes) {
+    say(static_cast<int>(node.kind));
+    say(node.plane.free);
+    say(node.plane.face.id());
+    say(node.plane.face.flipped());
+    say(node.first);
+    say(node.count);
+  }
+  say(tree.slots);
+  say(tree.turned);
   for (const auto& polygon : tree.polygons) {
     say(polygon.piece);
     for (const Exact_point& p : corners_of(traits, polygon))
@@ -360,8 +379,12 @@ TEST(Priority_tree, is_the_same_every_time_and_of_its_own_polygons) {
       std::vector<Convex_polygon<Exact_traits>> polygons;
       std::vector<char> turned;
       for (std::uint32_t i = 0; i < scene.traits.piece_count(); ++i) {
-        polygons.push_back(store.piece(scene.traits, i)), turned.push_back(0);
-        if (options.two_sided) polygons.push_back(turned_round(polygons.back(), store)), turned.push_back(1);
+        polygons.push_back(store.piece(scene.traits, i));
+        turned.push_back(0);
+        if (options.two_sided) {
+          polygons.push_back(turned_round(polygons.back(), store));
+          turned.push_back(1);
+        }
       }
       ASSERT_EQ(words, in_words(scene.traits, build_priority_tree(
                                                   scene.traits, std::span<const Convex_polygon<Exact_traits>>(polygons),
@@ -484,7 +507,10 @@ void add_group(std::vector<Points>& faces, const Exact_point& normal, long gap, 
     const int off =
         sgn(dot(normal, face[0])) * side + sgn(dot(normal, face[1])) * side + sgn(dot(normal, face[2])) * side;
     const Exact_point n = Flat(face).normal;
-    if (off > 0 && dot(n, n) != 0) faces.push_back(face), ++made;
+    if (off > 0 && dot(n, n) != 0) {
+      faces.push_back(face);
+      ++made;
+    }
   }
 }
 
@@ -516,11 +542,14 @@ TEST(Separation_finder, finds_planes_that_are_there_and_none_that_cut) {
     Exact_point normal = lattice_point(random, 2);
     const std::size_t axis = random.below(3);
     const bool across_axis = k % 3 == 0, with_face = k % 3 == 1;
-    if (across_axis || dot(normal, normal) == 0) normal = at(0, 0, 0), normal[axis] = random.chance(1, 2) ? 1 : -3;
+    if (across_axis || dot(normal, normal) == 0) {
+      normal = at(0, 0, 0);
+      normal[axis] = random.chance(1, 2) ? 1 : -3;
+    }
     std::vector<Points> faces;
     const std::size_t front = 1 + random.below(6), behind = 1 + random.below(6);
-    add_group(faces, normal, with_face ? 0 : 1, front, 1, random),
-        add_group(faces, normal, with_face ? 0 : 1, behind, -1, random);
+    add_group(faces, normal, with_face ? 0 : 1, front, 1, random);
+    add_group(faces, normal, with_face ? 0 : 1, behind, -1, random);
     if (with_face) {
       const Exact_point u = normal[0] == 0 && normal[1] == 0 ? at(1, 0, 0) : at(-normal[1], normal[0], 0);
       faces.push_back({at(0, 0, 0), u, cross(normal, u)});
@@ -533,7 +562,8 @@ TEST(Separation_finder, finds_planes_that_are_there_and_none_that_cut) {
     Polygon_store<Exact_traits> store;
     std::vector<std::uint32_t> members, some;
     for (std::uint32_t i = 0; i < faces.size(); ++i) {
-      finder.add(store.piece(scene.traits, i)), members.push_back(i);
+      finder.add(store.piece(scene.traits, i));
+      members.push_back(i);
       if (random.chance(1, 2)) some.push_back(i);
     }
     const std::size_t larger = check_find(scene, members, 1, with_face ? 100 : 1 + random.below(4), finder);

@@ -110,7 +110,11 @@ TEST_F(Graph, certificates_are_accepted_and_changed_ones_are_not) {
       change(changed);
       return run({"verify", scene, file("changed.json", changed.dump())}).code;
     };
-    EXPECT_EQ(code_after([](Json& c) { c["arcs"].clear(), c["fragments"].erase(0); }), disagreement);
+    EXPECT_EQ(code_after([](Json& c) {
+                c["arcs"].clear();
+                c["fragments"].erase(0);
+              }),
+              disagreement);
     EXPECT_EQ(code_after([](Json& c) { c["sizes"].push_back(1); }), disagreement);
     EXPECT_EQ(code_after([](Json& c) { c["points"][0][0] = "12345678901/7"; }), disagreement);
     EXPECT_EQ(code_after([](Json& c) { c.erase("sizes"); }), bad_input);

@@ -188,7 +188,8 @@ TEST_F(Json_output, a_json_file_holds_the_same_as_standard_output_and_the_table_
   EXPECT_EQ(r.code, done) << r;
   EXPECT_NE(r.out.find("arithmetic"), std::string::npos) << r;
   Json from_file = Json::parse(read_file(path("info.json"))), from_output = json_of({"info", cornell});
-  from_file.erase("seconds"), from_output.erase("seconds");
+  from_file.erase("seconds");
+  from_output.erase("seconds");
   EXPECT_EQ(from_file.dump(), from_output.dump());
 }
 

@@ -122,8 +122,12 @@ TEST_F(Judge, killed_in_the_middle_goes_on_where_it_was) {
       json.erase("seconds");
       Json& result = json["result"];
       for (const char* rows : {"rows", "by_distance"})
-        for (Json& row : result[rows]) row.erase("seconds"), row.erase("bytes");
-      result["total"].erase("seconds"), result["total"].erase("bytes");
+        for (Json& row : result[rows]) {
+          row.erase("seconds");
+          row.erase("bytes");
+        }
+      result["total"].erase("seconds");
+      result["total"].erase("bytes");
       for (Json& kept : result["smallest"]["files"])
         kept = fs::path(kept.get<std::string>()).filename().string() + read_file(kept.get<std::string>());
       return json.dump(1, ' ', false, Json::error_handler_t::replace);

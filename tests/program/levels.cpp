@@ -390,8 +390,10 @@ TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
   const Json* most = nullptr;
   std::size_t portals = 0;
   for (const Json& cell : index["cells"])
-    if (const std::size_t count = certificate_of(cell)["sources"].size(); count > portals)
-      most = &cell, portals = count;
+    if (const std::size_t count = certificate_of(cell)["sources"].size(); count > portals) {
+      most = &cell;
+      portals = count;
+    }
   ASSERT_GE(portals, 2u);
   const Json cell = *most, certificate = certificate_of(cell);
   const auto corners_of = [](const Json& source) { return std::set<Json>(source.begin(), source.end()); };

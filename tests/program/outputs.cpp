@@ -423,8 +423,13 @@ static Drawn_mesh read_mesh(const std::string& bytes) {
     if (word == "element" && type == "vertex") words >> points;
     if (word == "element" && type == "face") words >> polygons;
     if (word != "property" || polygons == 0) continue;
-    if (type == "list") words >> name, is_long = name == "uint";
-    else words >> name, properties.emplace_back(name, type == "uchar" ? 1 : 4);
+    if (type == "list") {
+      words >> name;
+      is_long = name == "uint";
+    } else {
+      words >> name;
+      properties.emplace_back(name, type == "uchar" ? 1 : 4);
+    }
   }
   const char* at = bytes.data() + end + std::string_view("end_header\n").size();
   const auto take = [&]<class T>(T value) {

@@ -163,7 +163,8 @@ TEST_F(Schema, of_compare_and_judge_is_what_they_write) {
   valid(held, done);
   held[4] = "trace";
   valid(held, done);
-  held[4] = "boolean", held[2] = "sh -c 'echo OFF 0 0 0 > $3' sh {scene} {query} {answer}";
+  held[4] = "boolean";
+  held[2] = "sh -c 'echo OFF 0 0 0 > $3' sh {scene} {query} {answer}";
   valid(held, disagreement);
   const auto [right, schema] = valid(reduced, disagreement);
   ASSERT_TRUE(right["result"]["smallest"].contains("reduced")) << right["result"]["smallest"];

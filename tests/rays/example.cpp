@@ -28,7 +28,8 @@ TEST(Rays_example, of_the_documentation_page_prints_what_it_says) {
                d = soup.add_point(x, y + 1, 0.0);
     soup.add_face({a, b, c, d});
   };
-  square(0, 0), square(1, 1);
+  square(0, 0);
+  square(1, 1);
   std::ostringstream out;
   example(soup, out);
   EXPECT_EQ(out.str(), "face 0 from 5/2 to 5/2\nface 1 from 5/2 to 5/2\nface 0 from 1 to 2\n");

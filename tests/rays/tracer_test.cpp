@@ -62,7 +62,9 @@ TEST(Trace, both_sides_are_met_and_named) {
 
 TEST(Trace, a_face_is_met_in_its_corners_and_edges_too) {
   Polygon_soup soup;
-  square(soup, {0, 0, 0}, 2, 1), square(soup, {1, 0, 0}, 2, 1), square(soup, {1, 1, 0}, 2, 1);
+  square(soup, {0, 0, 0}, 2, 1);
+  square(soup, {1, 0, 0}, 2, 1);
+  square(soup, {1, 1, 0}, 2, 1);
   const Rational half(1, 2);
   EXPECT_EQ(hits(soup, {{1, 1, 1}, {0, 0, -1}}), (Hits{{0, front, 1, 1}, {1, front, 1, 1}, {2, front, 1, 1}}));
   EXPECT_EQ(hits(soup, {{1, half, 1}, {0, 0, -1}}), (Hits{{0, front, 1, 1}, {1, front, 1, 1}}));

@@ -142,7 +142,8 @@ TEST_F(Report_command, resumed_asks_again_about_a_scene_that_changed_and_refuses
     return run(all);
   };
   // 1. Both scenes are asked about, and then one of them is another.
-  becomes(one, "cube.off"), becomes(two, "cube.off");
+  becomes(one, "cube.off");
+  becomes(two, "cube.off");
   const auto begun = [&] {
     for (int k = 0; k < 2; ++k) {
       const Outcome r = ask("r.json", {"--resume", "--budget", "1e-9"});

@@ -27,18 +27,31 @@ Row row(std::size_t unit, const std::string& method, const std::string& kernel, 
   Row r;
   r.unit = unit;
   r.who = {"see", method, kernel};
-  r.family = unit % 2 == 0 ? "boxes" : "hinged", r.distance = "+1 ulps";
-  r.size = 20, r.seed = 1, r.cases = 4, r.wrong = wrong, r.faces = 20;
-  r.seconds = seconds, r.worst_seconds = 2 * seconds, r.peak_bytes = 1000 + unit;
-  r.error = error, r.worst_error = 2 * error;
+  r.family = unit % 2 == 0 ? "boxes" : "hinged";
+  r.distance = "+1 ulps";
+  r.size = 20;
+  r.seed = 1;
+  r.cases = 4;
+  r.wrong = wrong;
+  r.faces = 20;
+  r.seconds = seconds;
+  r.worst_seconds = 2 * seconds;
+  r.peak_bytes = 1000 + unit;
+  r.error = error;
+  r.worst_error = 2 * error;
   if (wrong > 0) r.smallest = Wrong_case{20 - unit, 3, error};
   return r;
 }
 
 Example example(const Row& of, const std::string& file) {
   Example e;
-  e.who = of.who, e.family = of.family, e.distance = of.distance, e.size = of.size, e.seed = of.smallest->seed;
-  e.file = file, e.again = "sightline compare " + file;
+  e.who = of.who;
+  e.family = of.family;
+  e.distance = of.distance;
+  e.size = of.size;
+  e.seed = of.smallest->seed;
+  e.file = file;
+  e.again = "sightline compare " + file;
   return e;
 }
 
@@ -66,7 +79,8 @@ Report whole() {
 /// The units that are `shard` modulo two.
 Report half(std::uint32_t shard) {
   Report part = whole();
-  part.shard = shard, part.shards = 2;
+  part.shard = shard;
+  part.shards = 2;
   std::erase_if(part.rows, [&](const Row& r) { return r.unit % 2 != shard; });
   part.examples = {shard == 0 ? example(part.rows[3], "two.off") : example(part.rows[1], "one.off")};
   part.not_asked = {{"beyond doubles", shard == 0 ? 2 : 1}};
@@ -94,7 +108,8 @@ TEST(Report, is_read_as_it_was_written) {
 
 TEST(Report, sums_up_the_rows_of_each_contender) {
   Report report = whole();
-  report.rows[3].crashed = 1, report.rows[3].stopped = 1;  // of unit 1 in doubles: 2 of 4 ended
+  report.rows[3].crashed = 1;
+  report.rows[3].stopped = 1;  // of unit 1 in doubles: 2 of 4 ended
   const std::vector<Summary> sums = summaries(report.rows);
   ASSERT_EQ(sums.size(), 2u);
   EXPECT_EQ(sums[0].who, (Contender{"see", "partition", "exact"}));

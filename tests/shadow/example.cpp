@@ -30,7 +30,8 @@ TEST(Shadow_example, of_the_documentation_page_prints_what_it_says) {
                c = soup.add_point(x + size, x + size, z), d = soup.add_point(x, x + size, z);
     soup.add_face({a, b, c, d});
   };
-  square(0, 0, 4), square(1, 2, 1);
+  square(0, 0, 4);
+  square(1, 2, 1);
   std::ostringstream out;
   example(soup, out);
   EXPECT_EQ(out.str(),

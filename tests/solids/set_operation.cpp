@@ -260,8 +260,12 @@ TEST(Set_operations, leave_faces_whole_that_nothing_cuts) {
   std::vector<Point_id> low, high;
   for (const int z : {0, 1})
     for (const auto& [x, y] : outline) prism.add_point(x, y, z);
-  for (Point_id k = 0; k < count; ++k) low.push_back(count - 1 - k), high.push_back(count + k);
-  prism.add_face(low), prism.add_face(high);
+  for (Point_id k = 0; k < count; ++k) {
+    low.push_back(count - 1 - k);
+    high.push_back(count + k);
+  }
+  prism.add_face(low);
+  prism.add_face(high);
   for (Point_id k = 0; k < count; ++k) prism.add_face({k, (k + 1) % count, count + (k + 1) % count, count + k});
   const Set_result result = of(Set_operation::unite, {prism, box({10, 0, 0}, {11, 1, 1})});
   EXPECT_EQ(result.soup.face_count(), 8u + 6u);

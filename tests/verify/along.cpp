@@ -269,7 +269,8 @@ TEST(Verify_along_moments, signs_at_roots_and_between_them) {
     bool negative = false, positive = false;
     for (int s = 1; s < 200; ++s) {
       const double x = value(root + (1 - root) * s / 200);
-      negative |= x<-1e-9, positive |= x> 1e-9;
+      negative |= x < -1e-9;
+      positive |= x > 1e-9;
     }
     const std::optional<int> between = moments.sign(1, 2, f);
     EXPECT_EQ(moments.never_negative(1, 2, f) && negative, false);

@@ -22,7 +22,8 @@ Scene example() {
   const Points square = rectangle(0, ratio(1, 3), 0, 4, -1),
                skew = {at(0, 0, 0), at(4, 0, 1), at(4, 4, 0), at(0, 4, 1)};
   scene.seen_from(at(ratio(-1, 7), 2, 1 / tiny(200))).face(square);
-  scene.face(skew), scene.face({});
+  scene.face(skew);
+  scene.face({});
   const Points first = {skew[0], skew[1], skew[2]}, second = {skew[0], skew[2], skew[3]};
   return scene.cut(1, 0, first)
       .cut(1, 1, second)

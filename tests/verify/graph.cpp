@@ -37,7 +37,10 @@ void expect_rejected(const Graph_scene& given, const std::string& words,
 /// Unit squares above each other, the highest first: n components in one order only.
 Graph_scene stack(long n) {
   Graph_scene given;
-  for (long k = 0; k < n; ++k) given.add(rectangle(0, 1, 0, 1, n - k)), given.certificate.sizes.push_back(1);
+  for (long k = 0; k < n; ++k) {
+    given.add(rectangle(0, 1, 0, 1, n - k));
+    given.certificate.sizes.push_back(1);
+  }
   return given;
 }
 
@@ -92,8 +95,10 @@ TEST(Graph_certificate, takes_any_order_of_faces_without_arcs) {
   Graph_scene given;
   const auto corner = [](unsigned k) { return at(k & 1, k >> 1 & 1, k >> 2 & 1); };
   for (const std::array<unsigned, 4>& f :
-       {std::array<unsigned, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
-    given.add({corner(f[0]), corner(f[1]), corner(f[2]), corner(f[3])}), given.certificate.sizes.push_back(1);
+       {std::array<unsigned, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    given.add({corner(f[0]), corner(f[1]), corner(f[2]), corner(f[3])});
+    given.certificate.sizes.push_back(1);
+  }
   std::mt19937 random(7);
   for (int trial = 0; trial < 20; ++trial) {
     std::shuffle(given.certificate.fragments.begin(), given.certificate.fragments.end(), random);
@@ -108,7 +113,8 @@ TEST(Graph_certificate, of_a_ring_needs_arcs_both_ways_and_one_component) {
   ASSERT_GE(whole.certificate.arcs.size(), 3u);
   expect_accepted(whole, "1 strongly connected components of 3 pieces");
   Graph_scene apart = whole;
-  apart.certificate.sizes = {1, 1, 1}, apart.certificate.arcs.clear();
+  apart.certificate.sizes = {1, 1, 1};
+  apart.certificate.arcs.clear();
   EXPECT_NE(apart.verdict().why.find("which has higher priority"), std::string::npos) << apart.verdict().why;
   Graph_scene none = whole;
   none.certificate.arcs.clear();
@@ -224,7 +230,8 @@ TEST(Graph_certificate, with_a_witness_that_is_none_is_rejected) {
       for (std::size_t b = 0; b < 3; ++b) {
         Graph_scene given = whole;
         auto& arc = given.certificate.arcs[k];
-        arc.corner_from = a, arc.corner_to = b;
+        arc.corner_from = a;
+        arc.corner_to = b;
         const bool is_arc =
             std::any_of(whole.certificate.arcs.begin(), whole.certificate.arcs.end(), [&](const auto& other) {
               return other.from == arc.from && other.to == arc.to && other.corner_from == a && other.corner_to == b;
@@ -262,7 +269,8 @@ TEST(Graph_certificate, with_sizes_or_names_that_do_not_fit_is_rejected) {
 
 TEST(Graph_certificate, that_is_not_the_scene_is_rejected) {
   Graph_scene missing = stack(3);
-  missing.certificate.fragments.pop_back(), missing.certificate.sizes.pop_back();
+  missing.certificate.fragments.pop_back();
+  missing.certificate.sizes.pop_back();
   EXPECT_NE(missing.verdict().why.find("has no fragment"), std::string::npos) << missing.verdict().why;
   Graph_scene moved = stack(3);
   moved.certificate.fragments[1].vertices[0][0] += tiny(60);

@@ -16,7 +16,9 @@ const Points floor_of_four = rectangle(0, 4, 0, 4, 0), small_roof = rectangle(1,
 Scene good() {
   Scene scene;
   scene.seen_from(at(1, 1, 10)).face(floor_of_four);
-  scene.face(small_roof), scene.face({at(0, 0, 9), at(1, 0, 9), at(2, 0, 9)}), scene.face(floor_of_four);
+  scene.face(small_roof);
+  scene.face({at(0, 0, 9), at(1, 0, 9), at(2, 0, 9)});
+  scene.face(floor_of_four);
   const Points skew = {at(10, 0, 0), at(14, 0, 1), at(14, 4, 0), at(10, 4, 1)};
   scene.face(skew);
   scene.leave_out(2, "zero area").leave_out(3, "duplicate of 0");
@@ -50,8 +52,10 @@ TEST(Hostile, indices_out_of_range) {
 
 TEST(Hostile, numbers_that_are_not_canonical) {
   Rational doubled, infinite;
-  mpz_set_si(mpq_numref(doubled.get_mpq_t()), 2), mpz_set_si(mpq_denref(doubled.get_mpq_t()), 2);
-  mpz_set_si(mpq_numref(infinite.get_mpq_t()), 1), mpz_set_si(mpq_denref(infinite.get_mpq_t()), 0);
+  mpz_set_si(mpq_numref(doubled.get_mpq_t()), 2);
+  mpz_set_si(mpq_denref(doubled.get_mpq_t()), 2);
+  mpz_set_si(mpq_numref(infinite.get_mpq_t()), 1);
+  mpz_set_si(mpq_denref(infinite.get_mpq_t()), 0);
   for (const Rational& bad : {doubled, infinite}) {
     Scene scene = good();
     scene.certificate.eye[1] = bad;

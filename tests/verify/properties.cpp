@@ -185,10 +185,14 @@ TEST(Pair_check, agrees_with_clipping_in_space) {
       order_check::Pair_check check;
       const bool expected = nearer_by_clipping(a, b);
       ASSERT_EQ(check.nearer_somewhere(cone_a, cone_b), expected);
-      ++trials, nearer += expected, overlapping += has_area(clipped(a, b));
+      ++trials;
+      nearer += expected;
+      overlapping += has_area(clipped(a, b));
       // And through the front door, in both orders.
       Scene scene;
-      scene.face(a), scene.face(b), scene.draw(0, a).draw(1, b);
+      scene.face(a);
+      scene.face(b);
+      scene.draw(0, a).draw(1, b);
       ASSERT_EQ(scene.verdict().accepted, !expected);
       std::swap(scene.certificate.fragments[0], scene.certificate.fragments[1]);
       ASSERT_EQ(scene.verdict().accepted, !nearer_by_clipping(b, a));
@@ -219,10 +223,14 @@ TEST(Pairs, hand_on_all_that_overlap_and_few_others) {
   for (int i = 0; i < (test_scenes::is_sanitized() ? 80 : 240); ++i) {
     Points p = random_polygon(dice, 1 + i % 2, false);
     const Rational far = i % 3;  // some far away, so that their cones are thin
-    for (Exact_point& q : p) q[0] += 20 * far, q[1] += 7 * far;
+    for (Exact_point& q : p) {
+      q[0] += 20 * far;
+      q[1] += 7 * far;
+    }
     const order_check::Cone cone(p, at(0, 0, 0));
     if (cone.edge_on) continue;
-    polygons.push_back(p), cones.push_back(cone);
+    polygons.push_back(p);
+    cones.push_back(cone);
   }
   std::set<std::pair<std::size_t, std::size_t>> taken;
   std::vector<std::size_t> all(cones.size()), some;
@@ -245,7 +253,8 @@ TEST(Pairs, hand_on_all_that_overlap_and_few_others) {
     for (const std::size_t j : some) {
       const bool overlap = has_area(clipped(polygons[i], polygons[j])), is_taken = taken.contains({i, j});
       ASSERT_TRUE(is_taken || !overlap) << i << ' ' << j;
-      apart += !overlap, left_out += !is_taken;
+      apart += !overlap;
+      left_out += !is_taken;
     }
   EXPECT_EQ(std::count_if(taken.begin(), taken.end(), [](const auto& pair) { return pair.second % 4 == 0; }), 0);
   EXPECT_GT(apart, test_scenes::least(20000u));
@@ -310,7 +319,8 @@ TEST(Pairs, of_squares_side_by_side_are_few) {
   std::size_t taken = 0, with_itself = 0;
   const std::vector<order_check::Rounded_cone> rounded = order_check::rounded(cones, 1);
   order_check::Pairs(cones, rounded, [&](std::size_t i, std::size_t j) {
-    ++taken, with_itself += i == j;
+    ++taken;
+    with_itself += i == j;
   }).each(all, all, 1);
   EXPECT_GE(with_itself, cones.size());
   EXPECT_LT(taken, 20 * cones.size());  // of 901 x 901
@@ -340,7 +350,8 @@ std::array<Rational, 4> extent_on(const Points& polygon, std::size_t axis, int s
   for (const Exact_point& p : part)
     for (std::size_t k = 0; k < 2; ++k) {
       const Rational at_side = p[(axis + 1 + k) % 3] / (sense * p[axis]);
-      extent[2 * k] = std::min(extent[2 * k], at_side), extent[2 * k + 1] = std::max(extent[2 * k + 1], at_side);
+      extent[2 * k] = std::min(extent[2 * k], at_side);
+      extent[2 * k + 1] = std::max(extent[2 * k + 1], at_side);
     }
   return extent;
 }
@@ -368,7 +379,8 @@ TEST(Window, is_the_box_around_what_a_cone_covers_of_a_side) {
         ASSERT_TRUE(high - unit < extent[2 * k + 1] && extent[2 * k + 1] <= high) << trial << ' ' << side;
       }
     }
-    there += sides, cut += sides > 1;
+    there += sides;
+    cut += sides > 1;
   }
   EXPECT_GT(there, least(2000u));
   EXPECT_GT(cut, least(500u));

@@ -170,7 +170,8 @@ TEST(Set_aside, as_scenes_do_it_with_twisted_holes) {
   for (const std::int64_t ulps : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, generate::far_ulps})
     for (std::uint64_t seed = 0; seed < sample(100u); ++seed) {
       generate::Family_parameters parameters;
-      parameters.seed = seed, parameters.ulps = ulps;
+      parameters.seed = seed;
+      parameters.ulps = ulps;
       const generate::Posed_scene posed = generate::family("twisted_holes").make(parameters);
       const sightline::Scene made(posed.soup);
       const Order_certificate certificate = certificate_of_tree(made, posed.eye);

@@ -81,7 +81,9 @@ TEST(Rounded_cones, know_sides_or_say_nothing) {
             << trial;
         sides_told += sign.has_value();
       }
-      told += side.has_value(), silent += !side && expected != 0, close += side && exponent > 25;
+      told += side.has_value();
+      silent += !side && expected != 0;
+      close += side && exponent > 25;
     }
     order_check::Pair_check check;
     const bool is_nearer = check.nearer_somewhere(cone_a, cone_b);
@@ -146,7 +148,8 @@ TEST(Planes_between, are_right_of_sequences_that_are_nearly_in_order) {
         const bool is_told = planes.in_order(earlier, later),
                    is_nearer = check.nearer_somewhere(cones[earlier], cones[later]);
         ASSERT_FALSE(is_told && is_nearer) << seed << ": " << earlier << ' ' << later;
-        told += is_told, nearer += is_nearer;
+        told += is_told;
+        nearer += is_nearer;
         in_a_plane += is_told && cones[earlier].nearness == cones[later].nearness;
       }
   }
@@ -188,7 +191,8 @@ TEST(Cuts, of_a_tree_leave_no_pair_whichever_planes_the_eye_is_in) {
       const Order_certificate certificate = certificate_of_tree(scene, posed.eye);
       ASSERT_EQ(certificate.cuts.depths.size(), certificate.fragments.size());
       ASSERT_EQ(not_settled(certificate), 0u) << family << ' ' << seed;
-      fragments += certificate.fragments.size(), with_planes += !certificate.cuts.others.empty();
+      fragments += certificate.fragments.size();
+      with_planes += !certificate.cuts.others.empty();
     }
   EXPECT_GT(fragments, least(2000u));
   EXPECT_GT(with_planes, least(20u));

@@ -183,7 +183,8 @@ TEST(Tiling, of_a_face_with_holes_of_either_sense) {
   const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0),
                                     rectangle(2, 4, 1, 2, 0)};
   std::vector<Points> two = ring;
-  two.back() = rectangle(2, 3, 1, 2, 0), two.push_back(rectangle(ratio(7, 2), 4, 1, 2, 0));
+  two.back() = rectangle(2, 3, 1, 2, 0);
+  two.push_back(rectangle(ratio(7, 2), 4, 1, 2, 0));
   for (const Points& h : {hole, reversed(hole)}) {
     expect_accepted(one_face_drawn(ground, ring, {h}));
     expect_rejected(one_face_drawn(ground, {ground}, {h}), "is not tiled");

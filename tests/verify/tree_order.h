@@ -25,7 +25,8 @@ inline Order_certificate certificate_of_tree(const sightline::Scene& scene, cons
                      [&](const Fragment<Exact_traits>& drawn, Sign) {
                        const Piece& piece = scene.pieces()[drawn.polygon.piece];
                        Order_fragment& fragment = certificate.fragments.emplace_back();
-                       fragment.face = piece.face, fragment.piece = piece.number;
+                       fragment.face = piece.face;
+                       fragment.piece = piece.number;
                        for (const auto& corner : drawn.polygon)
                          fragment.vertices.push_back(traits.position(*corner.vertex));
                      });

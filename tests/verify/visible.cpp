@@ -73,7 +73,8 @@ Sight by_rays(Sight sight) {
       part.rays.push_back(static_cast<std::uint32_t>(c.rays.size()));
       c.rays.push_back(plus(p, -1, c.eye));
     }
-    part.vertices = {}, part.ray = {};
+    part.vertices = {};
+    part.ray = {};
   }
   return sight;
 }
@@ -296,7 +297,8 @@ std::vector<Points> box() {
       Points face;
       for (const auto& [u, v] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
         Exact_point p = at(side, side, side);
-        p[(axis + 1) % 3] = u, p[(axis + 2) % 3] = v;
+        p[(axis + 1) % 3] = u;
+        p[(axis + 2) % 3] = v;
         face.push_back(p);
       }
       faces.push_back(side < 0 ? face : reversed(face));
@@ -444,7 +446,8 @@ TEST(Visible, a_field_is_filled_and_nothing_else) {
   Sight outside_first = one_triangle();
   expect_rejected(outside_first.within(octant(3)).empty(octant(3)), "part 0 (face 0) is not inside the field");
   Sight opposite = one_triangle();
-  opposite.certificate.parts.clear(), opposite.certificate.empty = {octant(1)};
+  opposite.certificate.parts.clear();
+  opposite.certificate.empty = {octant(1)};
   expect_rejected(opposite.within(octant(0)), "boundaries do not cancel");
   Sight none;
   expect_rejected(none.from(at(0, 0, 0)).within(octant(0)), "boundaries do not cancel");
@@ -463,8 +466,10 @@ TEST(Visible, a_field_is_filled_and_nothing_else) {
 
 TEST(Visible, numbers_that_are_not_canonical) {
   Rational doubled, infinite;
-  mpz_set_si(mpq_numref(doubled.get_mpq_t()), 2), mpz_set_si(mpq_denref(doubled.get_mpq_t()), 2);
-  mpz_set_si(mpq_numref(infinite.get_mpq_t()), 1), mpz_set_si(mpq_denref(infinite.get_mpq_t()), 0);
+  mpz_set_si(mpq_numref(doubled.get_mpq_t()), 2);
+  mpz_set_si(mpq_denref(doubled.get_mpq_t()), 2);
+  mpz_set_si(mpq_numref(infinite.get_mpq_t()), 1);
+  mpz_set_si(mpq_denref(infinite.get_mpq_t()), 0);
   for (const Rational& bad : {doubled, infinite}) {
     Sight sight = one_triangle();
     sight.certificate.eye[2] = bad;
@@ -529,7 +534,8 @@ struct Seen {
     for (std::size_t i = 0; i < corners.size(); ++i)
       normal = plus(normal, 1, cross(corners[i], corners[(i + 1) % corners.size()]));
     const Rational height = dot(normal, corners[0]);
-    edge_on = sgn(height) == 0, front = sgn(height) < 0;
+    edge_on = sgn(height) == 0;
+    front = sgn(height) < 0;
     if (!edge_on) nearness = plus(nearness, 1 / height, normal);
   }
   Exact_point edge_plane(std::size_t i) const {
@@ -666,8 +672,11 @@ bool right_in(const Sight& sight, const Exact_point& d) {
     bool inside = true;
     for (std::size_t i = 0; i < piece.corners.size(); ++i) inside = inside && sgn(dot(piece.edge_plane(i), d)) > 0;
     const Rational nearness = dot(piece.nearness, d);
-    if (inside && (nearness > nearest || (nearness == nearest && piece.front && !front)))
-      first = f, nearest = nearness, front = piece.front;
+    if (inside && (nearness > nearest || (nearness == nearest && piece.front && !front))) {
+      first = f;
+      nearest = nearness;
+      front = piece.front;
+    }
   }
   std::size_t tiles = 0;
   for (const auto& part : c.parts)
@@ -707,8 +716,9 @@ TEST(Visible_by_cutting, is_accepted_and_right_in_directions_at_random) {
     const Sight& sight = sight_of(seed);
     expect_accepted(sight);
     for (int k = 0; k < test_scenes::sample(10); ++k) EXPECT_TRUE(right_in(sight, random_direction(dice)));
-    parts += sight.certificate.parts.size(), empty += sight.certificate.empty.size(),
-        fields += !sight.certificate.field.empty();
+    parts += sight.certificate.parts.size();
+    empty += sight.certificate.empty.size();
+    fields += !sight.certificate.field.empty();
   }
   EXPECT_GT(parts, test_scenes::least(500u));
   EXPECT_GT(empty, test_scenes::least(500u));
@@ -851,7 +861,8 @@ TEST(Visible_by_cutting, pieces_of_one_face_in_one_plane_go_by_their_number) {
     sight.soup.add_face(ids);
     for (std::uint32_t k = 0; k < 4; ++k) {
       const Points piece = {corner[triangles[k][0]], corner[triangles[k][1]], corner[triangles[k][2]]};
-      sight.certificate.fragments.push_back({0, k, piece}), sight.certificate.pieces.push_back({0, k, piece});
+      sight.certificate.fragments.push_back({0, k, piece});
+      sight.certificate.pieces.push_back({0, k, piece});
     }
     fill(sight);
     if (swapped)

@@ -28,7 +28,9 @@ TEST(Weak_certificate, says_how_many_faces_are_what) {
 
 TEST(Weak_certificate, that_is_not_the_scene_is_rejected) {
   Weak_scene scene = one_blocker();
-  scene.certificate.fragments.pop_back(), scene.certificate.hidden.pop_back(), scene.certificate.hidden.pop_back();
+  scene.certificate.fragments.pop_back();
+  scene.certificate.hidden.pop_back();
+  scene.certificate.hidden.pop_back();
   expect_rejected(scene, "face 1 has no fragment");
   scene = one_blocker();
   scene.certificate.fragments[1].vertices[0][0] += tiny(60);
@@ -81,7 +83,7 @@ TEST(Weak_sources, may_have_straight_corners_and_so_may_fragments) {
   scene = closed_slit();
   scene.certificate.sources[0] = many(scene.certificate.sources[0], 0);
   for (auto& fragment : scene.certificate.fragments) fragment.vertices = many(fragment.vertices, 1);
-  scene.certificate.lines[1].corner = static_cast<std::size_t>(count) + 2,
+  scene.certificate.lines[1].corner = static_cast<std::size_t>(count) + 2;
   scene.certificate.hidden[0].proof[2].terms[0].factor = 2 * count;
   expect_accepted(scene);
 }
@@ -92,7 +94,8 @@ const Exact_point below_slit = at(ratio(3, 5), ratio(1, 2), 0), above_slit = at(
 
 void expect_rejected_sightline(Weak_scene scene, const Exact_point& from, const Exact_point& to,
                                const std::string& words) {
-  scene.certificate.visible[0].from = from, scene.certificate.visible[0].to = to;
+  scene.certificate.visible[0].from = from;
+  scene.certificate.visible[0].to = to;
   expect_rejected(scene, "visible 0 (face 0) " + words);
 }
 
@@ -152,7 +155,8 @@ TEST(Sightline, that_meets_a_fragment_is_rejected_be_it_in_an_edge_or_a_corner) 
                               x < ratio(3, 5) ? "meets fragment 1 (face 1)" : "meets fragment 2 (face 2)");
   for (const Rational& x : {Rational(ratio(1, 2) + tiny(80)), Rational(ratio(7, 10) - tiny(80))}) {
     Weak_scene scene = open_slit();
-    scene.certificate.visible[0].from[0] = x, scene.certificate.visible[0].to[0] = x;
+    scene.certificate.visible[0].from[0] = x;
+    scene.certificate.visible[0].to[0] = x;
     expect_accepted(scene, "1 faces visible");
   }
   expect_rejected(open_slit(0), "visible 0 (face 0) meets fragment 1");
@@ -208,8 +212,8 @@ TEST(Sightline, has_nothing_at_its_ends_but_what_is_in_their_planes) {
   expect_rejected(scene, "visible 0 (face 0) meets fragment");
   Weak_scene roof;
   roof.from(up(-1, 1, -1, 1, 0)).face(down(-1, 1, -1, 1, 3));
-  roof.face({at(0, -9, 3), at(0, 9, 3), at(8, 9, -5), at(8, -9, -5)}),
-      roof.face({at(0, -9, 3), at(-8, -9, -5), at(-8, 9, -5), at(0, 9, 3)});
+  roof.face({at(0, -9, 3), at(0, 9, 3), at(8, 9, -5), at(8, -9, -5)});
+  roof.face({at(0, -9, 3), at(-8, -9, -5), at(-8, 9, -5), at(0, 9, 3)});
   roof.certificate.undecided = {1, 2};
   expect_rejected(roof.see(0, at(0, 0, 0), at(0, 0, 3)), "visible 0 (face 0) meets fragment");
   Weak_scene from_behind;
@@ -221,7 +225,9 @@ TEST(Sightline, has_nothing_at_its_ends_but_what_is_in_their_planes) {
   // A fragment in the plane of the source that holds its point, and one in the target's: they are met by no segment
   // beside it either.
   Weak_scene flat = nothing_between();
-  flat.face(up(0, 1, 0, 1, 0)), flat.face(down(-4, 4, -4, 4, 0)), flat.face(up(-4, 4, -4, 4, 3));
+  flat.face(up(0, 1, 0, 1, 0));
+  flat.face(down(-4, 4, -4, 4, 0));
+  flat.face(up(-4, 4, -4, 4, 3));
   flat.hide(1, {away()})
       .hide(2, {away()})
       .hide(3, {away()})

@@ -244,14 +244,21 @@ TEST(Weak_mutations, of_blockers_on_a_small_grid_are_judged_as_by_segments) {
     const Points source = triangle(1, 0, 1), target = triangle(1, 4, 5),
                  blocker = roll(dice, 0, 1) == 0 ? triangle(4, 1, 4) : triangle(9, 2, 3);
     Weak_scene scene;
-    scene.from(source).face(target), scene.face(blocker);
+    scene.from(source).face(target);
+    scene.face(blocker);
     scene.certificate.undecided = {1};
     scene.hide(0, {blocked(1)});
     const Judged judged(blocker);
     int front = 0, back = 0;
-    for (const Exact_point& p : source) front += judged.above(p), back += std::abs(judged.above(p));
+    for (const Exact_point& p : source) {
+      front += judged.above(p);
+      back += std::abs(judged.above(p));
+    }
     int front_of_target = 0, back_of_target = 0;
-    for (const Exact_point& q : target) front_of_target += judged.above(q), back_of_target += std::abs(judged.above(q));
+    for (const Exact_point& q : target) {
+      front_of_target += judged.above(q);
+      back_of_target += std::abs(judged.above(q));
+    }
     bool right = back > 0 && back_of_target > 0 && std::abs(front) == back &&
                  std::abs(front_of_target) == back_of_target && front * front_of_target < 0;
     bool borderline = false;  // a segment in the blocker's plane

@@ -21,7 +21,8 @@ inline const unsigned share = test_scenes::is_sanitized() ? 30 : 1;  // each num
 inline Form form(const Rational& a, const Rational& b, const Rational& c, const Rational& d) { return {a, b, c, d}; }
 inline Node node(Kind kind, std::size_t index = 0) {
   Node result;
-  result.kind = kind, result.index = index;
+  result.kind = kind;
+  result.index = index;
   return result;
 }
 inline Node side_of(std::size_t line) { return node(Kind::line, line); }
@@ -95,12 +96,14 @@ inline void expect_rejected(const Weak_scene& scene, const std::string& words) {
 /// Numbers that are not in canonical form.
 inline Rational doubled() {
   Rational r;
-  mpz_set_si(mpq_numref(r.get_mpq_t()), 2), mpz_set_si(mpq_denref(r.get_mpq_t()), 2);
+  mpz_set_si(mpq_numref(r.get_mpq_t()), 2);
+  mpz_set_si(mpq_denref(r.get_mpq_t()), 2);
   return r;
 }
 inline Rational infinite() {
   Rational r;
-  mpz_set_si(mpq_numref(r.get_mpq_t()), 1), mpz_set_si(mpq_denref(r.get_mpq_t()), 0);
+  mpz_set_si(mpq_numref(r.get_mpq_t()), 1);
+  mpz_set_si(mpq_denref(r.get_mpq_t()), 0);
   return r;
 }
 
@@ -135,7 +138,8 @@ inline Weak_scene one_blocker() {
 /// Two that share an edge. A line of a blocker that looks up is negative inside it.
 inline Weak_scene two_abutting() {
   Weak_scene scene = nothing_between();
-  scene.face(up(-5, ratio(1, 2), -5, 6, 1)), scene.face(up(ratio(1, 2), 6, -5, 6, 1));
+  scene.face(up(-5, ratio(1, 2), -5, 6, 1));
+  scene.face(up(ratio(1, 2), 6, -5, 6, 1));
   const std::size_t middle = scene.line(1, 1);
   return scene.hide(0, {side_of(middle), blocked(2), blocked(1)}).hide(1, {away()}).hide(2, {away()});
 }
@@ -143,8 +147,9 @@ inline Weak_scene two_abutting() {
 /// One on the left, two on the right.
 inline Weak_scene t_junction() {
   Weak_scene scene = nothing_between();
-  scene.face(up(-5, ratio(1, 2), -5, 6, 1)), scene.face(up(ratio(1, 2), 6, -5, ratio(1, 2), 1)),
-      scene.face(up(ratio(1, 2), 6, ratio(1, 2), 6, 1));
+  scene.face(up(-5, ratio(1, 2), -5, 6, 1));
+  scene.face(up(ratio(1, 2), 6, -5, ratio(1, 2), 1));
+  scene.face(up(ratio(1, 2), 6, ratio(1, 2), 6, 1));
   const std::size_t middle = scene.line(1, 1), right = scene.line(2, 2);
   return scene.hide(0, {side_of(middle), side_of(right), blocked(3), blocked(2), blocked(1)})
       .hide(1, {away()})
@@ -168,7 +173,8 @@ inline Weak_scene source_through_floor() {
 inline Weak_scene target_through_ground() {
   Weak_scene scene;
   scene.from(up(0, 1, 0, 1, 0));
-  scene.face(facing_back(3, 0, 1, -1, 1)), scene.face(reversed(facing_back(2, -5, 6, -5, 5)));
+  scene.face(facing_back(3, 0, 1, -1, 1));
+  scene.face(reversed(facing_back(2, -5, 6, -5, 5)));
   return scene.hide(0, {cut_target(form(0, 0, 1, 0)), blocked(1), away()}).hide(1, {away()});
 }
 
@@ -176,14 +182,17 @@ inline Weak_scene target_through_ground() {
 inline Weak_scene all_away() {
   Weak_scene scene;
   scene.from(up(0, 1, 0, 1, 0));
-  scene.face(up(0, 1, 0, 1, -1)), scene.face(down(0, 1, 0, 1, 0)), scene.face(up(0, 1, 0, 1, 2));
+  scene.face(up(0, 1, 0, 1, -1));
+  scene.face(down(0, 1, 0, 1, 0));
+  scene.face(up(0, 1, 0, 1, 2));
   return scene.hide(0, {away()}).hide(1, {away()}).hide(2, {away()});
 }
 
 /// A slit of the given width between two blockers.
 inline Weak_scene open_slit(const Rational& width = ratio(1, 5)) {
   Weak_scene scene = nothing_between();
-  scene.face(up(-5, ratio(1, 2), -5, 6, 1)), scene.face(up(ratio(1, 2) + width, 6, -5, 6, 1));
+  scene.face(up(-5, ratio(1, 2), -5, 6, 1));
+  scene.face(up(ratio(1, 2) + width, 6, -5, 6, 1));
   return scene.hide(1, {away()})
       .hide(2, {away()})
       .see(0, at(ratio(1, 2) + width / 2, ratio(1, 2), 0), at(ratio(1, 2) + width / 2, ratio(1, 2), 3));
@@ -193,7 +202,8 @@ inline Weak_scene open_slit(const Rational& width = ratio(1, 5)) {
 inline Weak_scene closed_slit(const Rational& first = 2, const Rational& second = 1, const Rational& slack = 0) {
   Weak_scene scene;
   scene.from(up(0, 1, 0, 1, 0)).face(down(1, 2, 0, 1, 3));
-  scene.face(up(-9, 1, -5, 6, 1)), scene.face(up(1 - slack, 9, -9, 13, 2));
+  scene.face(up(-9, 1, -5, 6, 1));
+  scene.face(up(1 - slack, 9, -9, 13, 2));
   const std::size_t low = scene.line(1, 1), high = scene.line(2, 3);
   return scene
       .hide(0, {side_of(low), side_of(high), empty({term(low, first), term(high, second)}), blocked(2), blocked(1)})
@@ -213,8 +223,8 @@ inline Weak_scene skew_slit(const std::vector<Term>& terms, bool mirrored = fals
   const Points along = up(0, 1, -thin, thin, 0), across = up(-2 * thin, -thin, 0, 1, 1);
   Weak_scene scene;
   scene.from(mirrored ? place(across) : along).face(reversed(mirrored ? place(along) : across));
-  scene.face(place(up(-9, 9, -9, end, ratio(9, 10)))),
-      scene.face(place({at(-1, 0, 0), at(0, ratio(1, 2), 1), at(0, 9, 1), at(-1, 9, 0)}));
+  scene.face(place(up(-9, 9, -9, end, ratio(9, 10))));
+  scene.face(place({at(-1, 0, 0), at(0, ratio(1, 2), 1), at(0, 9, 1), at(-1, 9, 0)}));
   const std::size_t level = scene.line(1, 2), skew = scene.line(2, 0);
   return scene.hide(0, {side_of(level), side_of(skew), empty(terms), blocked(2), blocked(1)})
       .hide(1, {away()})
@@ -232,8 +242,8 @@ inline Weak_scene skew_slit_both() {
 inline Weak_scene keel() {
   Weak_scene scene;
   scene.from(up(-1, 1, -1, 1, 0)).face(down(-1, 1, -1, 1, 3));
-  scene.face({at(0, -9, 0), at(8, -9, 8), at(8, 9, 8), at(0, 9, 0)}),
-      scene.face({at(-8, -9, 8), at(0, -9, 0), at(0, 9, 0), at(-8, 9, 8)});
+  scene.face({at(0, -9, 0), at(8, -9, 8), at(8, 9, 8), at(0, 9, 0)});
+  scene.face({at(-8, -9, 8), at(0, -9, 0), at(0, 9, 0), at(-8, 9, 8)});
   const Node halves = cut_source(form(1, 0, 0, 0));
   return scene.hide(0, {halves, blocked(1), blocked(2)})
       .hide(1, {halves, away(), blocked(2)})
@@ -245,7 +255,8 @@ inline Weak_scene two_sided() {
   Weak_scene scene;
   scene.certificate.two_sided = true;
   scene.from(up(0, 1, 0, 1, 0)).face(up(0, 1, 0, 1, 3));
-  scene.face(up(-5, 6, -5, 6, 1)), scene.face(down(0, 1, 0, 1, 0));
+  scene.face(up(-5, 6, -5, 6, 1));
+  scene.face(down(0, 1, 0, 1, 0));
   return scene.hide(0, {blocked(1)})
       .hide(2, {away()})
       .see(1, at(ratio(1, 3), ratio(1, 2), 0), at(ratio(1, 2), ratio(1, 2), 1));
@@ -276,8 +287,11 @@ inline Weak_scene strip(std::size_t n) {
     return k == 0 ? Rational(-9) : k == n ? Rational(9) : ratio(static_cast<long>(k), static_cast<long>(n));
   };
   scene.from(up(0, 1, 0, 1, 0)).face(down(0, 1, 0, 1, 2));
-  for (std::size_t k = 0; k < n; ++k)
-    scene.face(up(x(k), x(k + 1), -9, 9, 1)), scene.line(k + 1, 1), scene.hide(k + 1, {away()});
+  for (std::size_t k = 0; k < n; ++k) {
+    scene.face(up(x(k), x(k + 1), -9, 9, 1));
+    scene.line(k + 1, 1);
+    scene.hide(k + 1, {away()});
+  }
   Proof proof;
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, n}};
   while (!open.empty()) {
@@ -289,7 +303,8 @@ inline Weak_scene strip(std::size_t n) {
     }
     const std::size_t middle = (begin + end) / 2;
     proof.push_back(side_of(middle - 1));  // positive where x is greater
-    open.push_back({begin, middle}), open.push_back({middle, end});
+    open.push_back({begin, middle});
+    open.push_back({middle, end});
   }
   return scene.hide(0, proof);
 }
@@ -374,7 +389,8 @@ inline Exact_point random_inside(const Points& polygon, Dice& dice) {
   Rational total = 0;
   for (const Exact_point& p : polygon) {
     const Rational weight = roll(dice, 0, 5) == 0 ? Rational(roll(dice, 1, 100000)) : Rational(roll(dice, 1, 1000));
-    sum = along(sum, weight, p), total += weight;
+    sum = along(sum, weight, p);
+    total += weight;
   }
   return at(sum[0] / total, sum[1] / total, sum[2] / total);
 }

@@ -89,7 +89,8 @@ TEST(Tree, has_leaves_that_block) {
                        "hidden 0 (face 0), node 0 is not blocked by fragment 2: its plane is not between");
   expect_rejected_with(source_through_floor(), {blocked(1)}, "lines may pass an edge of it outside");
   Weak_scene in_plane = nothing_between();
-  in_plane.face(down(-5, 6, -5, 6, 3)), in_plane.face(up(-5, 6, -5, 6, 0));
+  in_plane.face(down(-5, 6, -5, 6, 3));
+  in_plane.face(up(-5, 6, -5, 6, 0));
   in_plane.certificate.undecided = {1, 2};
   in_plane.hide(0, {blocked(1)});
   expect_rejected(in_plane, "node 0 is not blocked by fragment 1: its plane is not between source and fragment");
@@ -98,7 +99,8 @@ TEST(Tree, has_leaves_that_block) {
   // It may touch source and target, and lines may touch its edges: on the closed side all are blocked.
   // What was found of an edge for one leaf is used for the next one: here it is the other blocker's inside.
   Weak_scene beside = nothing_between();
-  beside.face(up(-5, 2, -5, 6, 1)), beside.face(up(2, 6, -5, 6, 1));
+  beside.face(up(-5, 2, -5, 6, 1));
+  beside.face(up(2, 6, -5, 6, 1));
   beside.line(0, 0);
   beside.hide(0, {side_of(0), blocked(1), blocked(2)});
   expect_rejected(beside, "node 2 is not blocked by fragment 2: lines may pass an edge of it outside");
@@ -109,7 +111,8 @@ TEST(Tree, has_leaves_that_block) {
   expect_rejected(exact, "node 0 is not blocked by fragment 1: lines may pass an edge of it outside");
   Weak_scene touching = nothing_between();  // the blocker leads from an edge of the source to one of the target
   touching.face({at(0, -9, 0), at(1, -9, 3), at(1, 9, 3), at(0, 9, 0)});
-  touching.certificate.sources[0] = up(0, 1, 0, 1, 0), touching.certificate.undecided = {1};
+  touching.certificate.sources[0] = up(0, 1, 0, 1, 0);
+  touching.certificate.undecided = {1};
   touching.hide(0, {blocked(1)});
   expect_accepted(touching);
 }
@@ -150,7 +153,8 @@ TEST(Tree, has_leaves_that_are_away) {
       .face({at(0, 3, 0), at(0, 4, 0), at(0, 4, 1), at(0, 3, 1)});
   expect_accepted(upright.hide(0, {away()}));
   Weak_scene across = upright;
-  across.soup = {}, across.certificate.fragments.clear(),
+  across.soup = {};
+  across.certificate.fragments.clear();
   across.face({at(1, 0, ratio(1, 2)), at(2, 0, ratio(1, 2)), at(2, 1, ratio(1, 2))});
   expect_rejected(across, words);
   across.certificate.hidden[0].proof = {cut_source(form(0, 0, 2, -1)), away(), away()};
@@ -340,8 +344,8 @@ TEST(Empty_cell, is_judged_as_by_interpolation_on_random_terms) {
       const Exact_point a = at(number(), number(), roll(dice, 1, 3));
       const std::size_t f = scene.face({a, along(a, 1, at(number(), number(), roll(dice, 0, 1) + ratio(1, 7))),
                                         along(a, 1, at(number(), number(), ratio(1, 19)))});
-      scene.line(f, static_cast<std::size_t>(roll(dice, 0, 2))),
-          scene.certificate.undecided.push_back(static_cast<Face_id>(f));
+      scene.line(f, static_cast<std::size_t>(roll(dice, 0, 2)));
+      scene.certificate.undecided.push_back(static_cast<Face_id>(f));
     }
     const auto& c = scene.certificate;
     const Points &source = c.sources[0], &target = c.fragments[0].vertices;
@@ -353,8 +357,10 @@ TEST(Empty_cell, is_judged_as_by_interpolation_on_random_terms) {
       if (roll(dice, 0, 2) < (often ? 1 : 2)) return std::nullopt;
       const Rational a = number(), b = number();
       Rational least = 1000, most = -1000;
-      for (const Exact_point& p : polygon)
-        least = std::min(least, Rational(a * p[0] + b * p[1])), most = std::max(most, Rational(a * p[0] + b * p[1]));
+      for (const Exact_point& p : polygon) {
+        least = std::min(least, Rational(a * p[0] + b * p[1]));
+        most = std::max(most, Rational(a * p[0] + b * p[1]));
+      }
       if (least == most) return form(0, 0, 0, ratio(2, 3));
       return form(a, b, 0, roll(dice, 0, 1) == 0 ? Rational(-least) : Rational(1 - least));
     };
@@ -369,7 +375,10 @@ TEST(Empty_cell, is_judged_as_by_interpolation_on_random_terms) {
 
     // The sum as a polynomial; the coefficient of two weights from its values at corners and half-way points.
     bool source_forms = false, target_forms = false;
-    for (const Term& t : terms) source_forms = source_forms || t.source, target_forms = target_forms || t.target;
+    for (const Term& t : terms) {
+      source_forms = source_forms || t.source;
+      target_forms = target_forms || t.target;
+    }
     const auto at_form = [](const std::optional<Form>& f, const Exact_point& p) {
       return f ? Rational((*f)[0] * p[0] + (*f)[1] * p[1] + (*f)[2] * p[2] + (*f)[3]) : Rational(1);
     };
@@ -423,7 +432,8 @@ TEST(Weak_size, of_a_tree_may_be_a_million_deep) {
     std::size_t calls = 0, last = 0;
     Verify_options options;
     options.progress = [&](std::size_t done, std::size_t total) {
-      ++calls, last = done;
+      ++calls;
+      last = done;
       EXPECT_EQ(total, 2u);
     };
     const Verdict verdict = verify_weak(scene.soup, scene.certificate, options);

@@ -97,7 +97,9 @@ TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
             std::find_if(read.pieces().begin(), read.pieces().end(), [&](const Piece& p) { return p.face == face; });
         Cell_of_a_line cell(occluders, source, static_cast<std::uint32_t>(piece - read.pieces().begin()));
         for (int k = 0; k < 12; ++k) EXPECT_EQ(cell.wrong_proofs(random), 0u) << scene.name << ", face " << face;
-        asked += cell.asked, exact += cell.counters.exact_programs, forms += cell.counters.form_programs;
+        asked += cell.asked;
+        exact += cell.counters.exact_programs;
+        forms += cell.counters.form_programs;
       }
     }
   EXPECT_GT(asked, test_scenes::least(1000u));

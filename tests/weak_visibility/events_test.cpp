@@ -96,12 +96,15 @@ TEST_P(Event_families, and_the_search_among_lines_say_the_same) {
     Events_options events;
     lines.search.two_sided = events.two_sided = seed % 2 == 0;
     events.undivided = undivided(seed / 2);
-    events.rays = 0, lines.search.cells = 2000;
+    events.rays = 0;
+    lines.search.cells = 2000;
     const Weakly_visible found = weakly_visible(occluders, {source}, lines);
     const Verdict verdict =
         verify_weak(scene.soup, weak_certificate(read, {scene.source}, lines.search.two_sided, found));
     EXPECT_TRUE(verdict.accepted) << scene.name << ": " << verdict.why;
-    left += found.undecided.size(), visible += found.visible.size(), hidden += found.hidden.size();
+    left += found.undecided.size();
+    visible += found.visible.size();
+    hidden += found.hidden.size();
     for (std::uint32_t piece = 0; piece < read.pieces().size(); ++piece) {
       const Face_id face = read.pieces()[piece].face;
       if (std::binary_search(found.undecided.begin(), found.undecided.end(), face)) continue;
@@ -121,8 +124,10 @@ TEST_P(Event_families, and_the_search_among_lines_say_the_same) {
     }
   }
   EXPECT_GT(visible + hidden, 0u);
-  RecordProperty("scenes", static_cast<int>(scenes)), RecordProperty("visible", static_cast<int>(visible)),
-      RecordProperty("hidden", static_cast<int>(hidden)), RecordProperty("undecided_by_lines", static_cast<int>(left));
+  RecordProperty("scenes", static_cast<int>(scenes));
+  RecordProperty("visible", static_cast<int>(visible));
+  RecordProperty("hidden", static_cast<int>(hidden));
+  RecordProperty("undecided_by_lines", static_cast<int>(left));
 }
 
 TEST(Events, see_the_same_from_source_to_target_as_back) {
@@ -177,7 +182,8 @@ TEST(Events, keep_surfaces_from_source_to_target) {
   const Scene read(scene.soup);
   const Occluders occluders(read);
   Events_options options;
-  options.rays = 0, options.surfaces = true;
+  options.rays = 0;
+  options.surfaces = true;
   const Weakly_visible_by_events found =
       weakly_visible_by_events(occluders, {weak_source(occluders, scene.source)}, options);
   EXPECT_EQ(found.visible.size() + found.hidden.size() + found.undecided.size(), read.counters().faces);
@@ -254,7 +260,8 @@ TEST(Events, beyond_the_budget_are_undecided) {
   const Weak_scene scene = weak_scenes::families()[0].make(0);
   Event_counters counters;
   Events_options options;
-  options.rays = 0, options.events = 3;
+  options.rays = 0;
+  options.events = 3;
   EXPECT_EQ(by_events(scene, scene.targets[0], options, counters), Weak_status::undecided);
   EXPECT_LE(counters.horizon + counters.edge_vertex + counters.triple, 5u);
 }
@@ -272,15 +279,19 @@ TEST(Event_shafts, of_random_triangles_are_decided_as_without_parts) {
       const Occluders occluders(scene);
       const std::vector<Weak_source> source{weak_source(occluders, 0)};
       Events_options options;
-      options.rays = 0, options.threads = 1, options.undivided = n < 60 ? 1000000 : 30;
+      options.rays = 0;
+      options.threads = 1;
+      options.undivided = n < 60 ? 1000000 : 30;
       const Weakly_visible_by_events at_once = weakly_visible_by_events(occluders, source, options);
       options.undivided = 0;
       const Weakly_visible_by_events in_parts = weakly_visible_by_events(occluders, source, options);
       EXPECT_EQ(at_once.visible, in_parts.visible) << n << ", " << seed;
       EXPECT_EQ(at_once.hidden, in_parts.hidden) << n << ", " << seed;
       EXPECT_TRUE(in_parts.undecided.empty()) << n << ", " << seed;
-      hidden += in_parts.hidden.size(), visible += in_parts.visible.size();
-      whole += at_once.counters, divided += in_parts.counters;
+      hidden += in_parts.hidden.size();
+      visible += in_parts.visible.size();
+      whole += at_once.counters;
+      divided += in_parts.counters;
     }
   EXPECT_GT(hidden, 20u);
   EXPECT_GT(visible, 20u);
@@ -320,7 +331,8 @@ TEST(Event_shafts, behind_faces_that_share_edges_are_covered_by_several_together
                                               generate::scaling(Rational(1, 1ul << 60), generate::at(0, 0, 0))})
     for (const bool uneven : {false, true}) {
       Events_options options;
-      options.rays = 0, options.undivided = 0;
+      options.rays = 0;
+      options.undivided = 0;
       Event_counters closed, open;
       constexpr long n = 4;
       EXPECT_EQ(by_events(wall(n, uneven, 1, -1, map), 0, options, closed), Weak_status::hidden) << uneven;
@@ -419,10 +431,14 @@ TEST(Event_cells, around_three_skew_lines_are_all_eight) {
   };
   std::size_t three = 0, four = 0;
   expect_all_cells(chart, {&lines[0], &lines[1], &lines[2]}, visit);
-  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2]},
-                         [&](const auto&, const auto&) { return ++three, false; });
-  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2], &lines[3]},
-                         [&](const auto&, const auto&) { return ++four, false; });
+  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2]}, [&](const auto&, const auto&) {
+    ++three;
+    return false;
+  });
+  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2], &lines[3]}, [&](const auto&, const auto&) {
+    ++four;
+    return false;
+  });
   EXPECT_EQ(three, 8u);
   EXPECT_EQ(four, 14u);  // four planes through a point in general position
   expect_all_cells(chart, {&lines[0], &lines[1], &lines[2], &lines[3]}, visit);
@@ -456,8 +472,10 @@ TEST(Event_cells, around_a_pencil_reach_between_its_own_lines) {
   expect_all_cells(chart, {&star, &star_2, &flat, &flat_2, &own, &own_2, &own_3}, visit);
   // A line that pierces the plane between two lines of the pencil, near the event line: first order does not know it.
   std::set<std::vector<int>> cells;
-  visit_cells_at_pencil(chart, {&own, &own_2},
-                        [&](const std::vector<int>& signs, const Event_move&) { return cells.insert(signs), false; });
+  visit_cells_at_pencil(chart, {&own, &own_2}, [&](const std::vector<int>& signs, const Event_move&) {
+    cells.insert(signs);
+    return false;
+  });
   EXPECT_EQ(cells.size(), 4u);
 }
 

@@ -132,7 +132,9 @@ TEST(Weakly_visible, proves_what_it_says_for_coordinates_of_all_exponents) {
     const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, posed.source)}, options);
     const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, {posed.source}, false, found));
     EXPECT_TRUE(verdict.accepted) << seed << ": " << verdict.why;
-    visible += found.visible.size(), hidden += found.hidden.size(), undecided += found.undecided.size();
+    visible += found.visible.size();
+    hidden += found.hidden.size();
+    undecided += found.undecided.size();
   }
   EXPECT_GT(visible, 20u);
   EXPECT_GT(hidden, 50u);

@@ -33,7 +33,10 @@ void ask(const Weak_scene& scene, Face_id target, std::size_t tries, Tally& tall
   std::optional<bool> z3;
   if (has_z3()) z3 = z3_says(scene, target, effort);
   const bool ray = find_sightline(scene, target, tries, 5).has_value();
-  tally.visible += z3 == true, tally.hidden += z3 == false, tally.unknown += !z3, tally.rays += ray;
+  tally.visible += z3 == true;
+  tally.hidden += z3 == false;
+  tally.unknown += !z3;
+  tally.rays += ray;
   EXPECT_TRUE(!z3 || !scene.truth || z3 == scene.truth)
       << scene.name << ", face " << target << ": z3 says " << z3.value_or(false);
   EXPECT_TRUE(!ray || scene.truth.value_or(true)) << scene.name << ", face " << target << ": a sightline";
@@ -64,12 +67,16 @@ TEST(Weak_oracle_simplex, agrees_with_trying_all_vertices) {
     std::vector<Rational> bounds{4, 4};
     for (std::size_t k = random.below(5); k > 0; --k) {
       const Rational x = weak_scenes::integer(random, -3, 3), y = weak_scenes::integer(random, -3, 3);
-      rows.push_back({x, y}), bounds.push_back(weak_scenes::integer(random, 0, 6));
+      rows.push_back({x, y});
+      bounds.push_back(weak_scenes::integer(random, 0, 6));
     }
     const std::vector<Rational> objective{weak_scenes::integer(random, -3, 3), weak_scenes::integer(random, -3, 3)};
     std::vector<std::vector<Rational>> lines = rows;
     std::vector<Rational> at_most = bounds;
-    lines.push_back({-1, 0}), lines.push_back({0, -1}), at_most.push_back(0), at_most.push_back(0);
+    lines.push_back({-1, 0});
+    lines.push_back({0, -1});
+    at_most.push_back(0);
+    at_most.push_back(0);
     Rational best = 0;  // at the origin, which satisfies all
     for (std::size_t i = 0; i < lines.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
@@ -94,7 +101,8 @@ TEST(Weak_oracle_cells, have_an_inner_point_iff_they_are_not_flat) {
     for (std::size_t i = 0; i < 4; ++i)
       for (const long sign : {-1, 1}) {
         Wall wall{{0, 0, 0, 0}, -1};
-        wall.normal[i] = sign, cell.push_back(wall);
+        wall.normal[i] = sign;
+        cell.push_back(wall);
       }
     cell.push_back({{1, 0, 0, 1}, from});
     cell.push_back({{-1, 0, 0, -1}, Rational(-to)});
@@ -304,7 +312,8 @@ TEST(Weak_oracle_z3, says_of_single_pairs_what_exact_segments_say) {
       });
       EXPECT_TRUE(proof || answer == "unsat") << scene.name;
       EXPECT_TRUE(!proof || in_a_plane || answer == "sat") << scene.name;
-      ++(proof ? free : blocked), degenerate += in_a_plane;
+      ++(proof ? free : blocked);
+      degenerate += in_a_plane;
     }
   }
   EXPECT_GT(free, weak_scenes::seeds(50));
@@ -348,7 +357,8 @@ TEST(Weak_oracle_parallel_planes, splits_what_is_free_into_disjoint_cells_of_fre
       for (const Free_cell& cell : free) {
         int least = 1;
         for (const Wall& wall : cell.cell) least = std::min(least, sgn(wall.height(line)));
-        within += least > 0, boundary = boundary || least == 0;
+        within += least > 0;
+        boundary = boundary || least == 0;
       }
       EXPECT_TRUE(boundary || within == (proves_visible(flats, scene.source, 0, {p, q}) ? 1 : 0)) << within;
     }

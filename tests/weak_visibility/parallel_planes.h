@@ -40,7 +40,10 @@ inline Optimum maximise(std::vector<std::vector<Rational>> rows, std::vector<Rat
     for (std::size_t i = 0; i < m; ++i) {
       if (sgn(rows[i][in]) <= 0) continue;
       const Rational limit = Rational(bounds[i] / rows[i][in]);
-      if (out == m || limit < least || (limit == least && basic[i] < basic[out])) out = i, least = limit;
+      if (out == m || limit < least || (limit == least && basic[i] < basic[out])) {
+        out = i;
+        least = limit;
+      }
     }
     if (out == m) throw std::domain_error("the linear program has no finite optimum");
     // free[in] and basic[out] change places.
@@ -113,12 +116,17 @@ inline std::optional<Line_point> inner_point(const Cell& cell) {
   std::vector<Rational> bounds;
   for (const Wall& wall : cell) {
     std::vector<Rational> row(9, 1);
-    for (std::size_t i = 0; i < 4; ++i) row[i] = -wall.normal[i], row[4 + i] = wall.normal[i];
-    rows.push_back(row), bounds.push_back(Rational(lift - wall.offset));
+    for (std::size_t i = 0; i < 4; ++i) {
+      row[i] = -wall.normal[i];
+      row[4 + i] = wall.normal[i];
+    }
+    rows.push_back(row);
+    bounds.push_back(Rational(lift - wall.offset));
   }
   std::vector<Rational> slack(9, 0);
   slack[8] = 1;
-  rows.push_back(slack), bounds.push_back(Rational(lift + 1));
+  rows.push_back(slack);
+  bounds.push_back(Rational(lift + 1));
   const Optimum best = maximise(rows, bounds, slack);
   if (best.value <= lift) return std::nullopt;
   Line_point point;
@@ -132,10 +140,17 @@ inline Rational supremum(const Cell& cell, const Line_point& inside, const Line_
   std::vector<Rational> bounds, objective(8);
   for (const Wall& wall : cell) {
     std::vector<Rational> row(8);
-    for (std::size_t i = 0; i < 4; ++i) row[i] = -wall.normal[i], row[4 + i] = wall.normal[i];
-    rows.push_back(row), bounds.push_back(wall.height(inside));
+    for (std::size_t i = 0; i < 4; ++i) {
+      row[i] = -wall.normal[i];
+      row[4 + i] = wall.normal[i];
+    }
+    rows.push_back(row);
+    bounds.push_back(wall.height(inside));
   }
-  for (std::size_t i = 0; i < 4; ++i) objective[i] = form[i], objective[4 + i] = -form[i];
+  for (std::size_t i = 0; i < 4; ++i) {
+    objective[i] = form[i];
+    objective[4 + i] = -form[i];
+  }
   return Rational(maximise(rows, bounds, objective).value + Wall{form, 0}.height(inside));
 }
 

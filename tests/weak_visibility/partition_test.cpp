@@ -136,7 +136,10 @@ void expect_right(const Polygon_soup& soup, const Points& source, Face_id face, 
       EXPECT_GT(cell.area.high, 0);
     }
     double low = 0, high = 0;
-    for (const Bounded& share : found.shares()) low += share.low, high += share.high;
+    for (const Bounded& share : found.shares()) {
+      low += share.low;
+      high += share.high;
+    }
     EXPECT_LE(low, 1.0);
     EXPECT_GE(high, 1.0);
     EXPECT_LT(high - low, 1e-6);

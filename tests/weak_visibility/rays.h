@@ -61,7 +61,8 @@ inline Exact_point random_inner_point(const Points& polygon, Random& random) {
   const std::uint64_t unequal = random.chance(1, 2) ? 1 : 24;
   for (const Exact_point& corner : polygon) {
     const Rational weight(static_cast<unsigned long>(1 + random.below(1000)) << random.below(unequal));
-    sum = along(sum, weight, corner), whole += weight;
+    sum = along(sum, weight, corner);
+    whole += weight;
   }
   return weak_scenes::scaled(Rational(1 / whole), sum);
 }

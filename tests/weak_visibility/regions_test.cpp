@@ -46,7 +46,8 @@ TEST(Conservative, leaves_out_nothing_that_is_visible_and_proves_what_it_hides) 
       for (const Face_id target : scene.targets)
         EXPECT_TRUE(scene.truth != true || contains(quick.visible, target)) << scene.name;
       Weak_options lines;
-      lines.search.two_sided = options.two_sided, lines.search.cells = 500;
+      lines.search.two_sided = options.two_sided;
+      lines.search.cells = 500;
       const Weakly_visible exact = weakly_visible(occluders, sources, lines);
       for (const Face_id face : exact.visible)
         EXPECT_TRUE(contains(quick.visible, face)) << scene.name << ", face " << face;
@@ -143,7 +144,7 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
       const Occluders occluders(read);
       const std::vector<Weak_source> sources{weak_source(occluders, scene.source)};
       Weak_options lines;
-      lines.search.cells = seed % 2 == 0 ? 100 : 1,
+      lines.search.cells = seed % 2 == 0 ? 100 : 1;
       lines.search.rays = 0;  // so few cells that there is something to do, also where faces are visible
       Weakly_visible found = weakly_visible(occluders, sources, lines);
       const Weakly_visible before = found;
@@ -205,7 +206,8 @@ TEST(Settled_by_events, are_pairs_with_as_many_edges_as_allowed_and_one_that_is_
   const std::vector<Weak_source> sources{weak_source(occluders, rectangle(-1, 1, -1, 1, 0)),
                                          weak_source(occluders, rectangle(20, 21, -1, 1, 3))};
   Weak_options lines;
-  lines.search.cells = 0, lines.search.rays = 0;  // all is left open
+  lines.search.cells = 0;
+  lines.search.rays = 0;  // all is left open
   const Weakly_visible open = weakly_visible(occluders, sources, lines);
   const std::size_t below = edges_between(occluders, sources[0], 0), beside = edges_between(occluders, sources[1], 0);
   ASSERT_GT(below, beside);
@@ -244,7 +246,8 @@ TEST(Open_cells, hold_each_sightline_that_the_search_stopped_short_of) {
       Weak_options lines;
       lines.search.cells = 2000;
       const Weakly_visible whole = weakly_visible(occluders, {source}, lines);
-      lines.search.cells = 1 + seed % 12, lines.search.rays = 0;
+      lines.search.cells = 1 + seed % 12;
+      lines.search.rays = 0;
       const Weakly_visible stopped = weakly_visible(occluders, {source}, lines);
       for (const Weakly_visible::Pair& open : stopped.open)
         for (const Weakly_visible::Pair& seen : whole.pairs) {
@@ -515,7 +518,9 @@ TEST(Volume, settles_what_it_sees_from_within_and_leaves_no_pairs_of_it_open) {
   std::vector<Weak_source> sources;
   for (const Points& part : volume.surface()) sources.push_back(weak_source(occluders, part));
   Weak_options options;
-  options.search.cells = 0, options.search.rays = 0, options.search.two_sided = true;  // all is left open
+  options.search.cells = 0;
+  options.search.rays = 0;
+  options.search.two_sided = true;  // all is left open
   Weakly_visible found = weakly_visible(occluders, sources, options);
   ASSERT_EQ(found.undecided, (Ids{0, 1}));
   EXPECT_EQ(add_seen_from_within(scene, volume, true, found), (Ids{0}));

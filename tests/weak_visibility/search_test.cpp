@@ -217,7 +217,10 @@ TEST(Weak_visibility, is_undecided_and_never_a_guess_where_the_search_may_take_o
             Weak_status::undecided);
   options.search.cells = 1000;
   std::size_t asked = 0;
-  options.search.out_of_time = [&] { return ++asked, true; };
+  options.search.out_of_time = [&] {
+    ++asked;
+    return true;
+  };
   options.threads = 1;
   EXPECT_EQ(found_and_verified(soup, {square(0, 0, 0, 1, true)}, options, "no time").of(0), Weak_status::undecided);
   EXPECT_EQ(asked, 4u) << "once before boxes of faces, once a face, and nothing is begun";

@@ -93,7 +93,8 @@ class Sentence {
     std::string outside_from_front, outside_from_behind;
     for (std::size_t k = 0; k < flat.corners.size(); ++k) {
       const Form side = side_of_line(frame_, flat.corners[k], flat.corners[(k + 1) % flat.corners.size()]);
-      outside_from_front += ' ' + positive(side), outside_from_behind += ' ' + negative(side);
+      outside_from_front += ' ' + positive(side);
+      outside_from_behind += ' ' + negative(side);
     }
     return "(or (and " + positive(p) + ' ' + positive(q) + ") (and " + negative(p) + ' ' + negative(q) + ")\n  (and " +
            positive(p) + " (or" + outside_from_front + "))\n  (and " + negative(p) + " (or" + outside_from_behind +

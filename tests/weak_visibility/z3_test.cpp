@@ -56,14 +56,17 @@ void ask_both(const Weak_scene& scene, Opinions& sum) {
       EXPECT_EQ(z3.value_or(visible), visible) << scene.name << ", face " << face;
       agree = agree && z3 == visible;
       if (!z3) ++sum.z3_unknown;
-      else
-        ++(visible ? sum.visible : sum.hidden),
-            sum.by_events += std::binary_search(left_open.begin(), left_open.end(), face);
+      else {
+        ++(visible ? sum.visible : sum.hidden);
+        sum.by_events += std::binary_search(left_open.begin(), left_open.end(), face);
+      }
     }
   };
-  compare(found.visible, true), compare(found.hidden, false);
+  compare(found.visible, true);
+  compare(found.hidden, false);
   sum.undecided += found.undecided.size();
-  ++sum.scenes, sum.agreed += agree && found.undecided.empty();
+  ++sum.scenes;
+  sum.agreed += agree && found.undecided.empty();
 }
 
 TEST(Engine_and_z3, say_the_same_of_scenes_with_a_source) {
@@ -91,7 +94,8 @@ TEST(Engine_and_z3, say_the_same_of_scenes_that_a_face_of_their_own_looks_at) {
       if ((k + seed) % (test_scenes::is_sanitized() ? 8 : 4) != 2) continue;
       const generate::Family& family = generate::families()[k];
       generate::Family_parameters parameters;
-      parameters.seed = seed, parameters.size = family.small_size,
+      parameters.seed = seed;
+      parameters.size = family.small_size;
       parameters.ulps = static_cast<std::int64_t>(seed % 3) - 1;
       const generate::Posed_scene posed = family.make(parameters);
       const Scene read(posed.soup);
