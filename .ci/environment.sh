@@ -21,6 +21,8 @@ clang|clang++|the Release build that is tested, as clang compiles tests in two t
 libgtest-dev|gtest/gtest.h|tests
 librapidcheck-dev|rapidcheck.h|tests of laws on random input
 libembree-dev|embree3/rtcore.h|render --method rays, and an adapter of judge; their tests say that they are skipped where it is missing
+libocct-modeling-algorithms-dev|opencascade/Standard_Version.hxx|an adapter of judge, OpenCASCADE, whose tests say that they are skipped where this or what follows is missing
+libocct-modeling-data-dev|opencascade/TopAbs_ShapeEnum.hxx|an adapter of judge
 clang-format-14|clang-format-14|a test that every file has the format of .clang-format; skipped where it is missing
 libopenmpi-dev|mpi.h|mpirun sightline pvs, which shares its work among processes; its tests are skipped where this or what follows is missing
 openmpi-bin|mpirun|mpirun sightline pvs

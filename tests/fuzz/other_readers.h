@@ -223,8 +223,9 @@ inline void answer(std::string_view bytes) {
     for (const judge::Drawn_face& drawn : taken_answer->order) {
       require(drawn.face < faces && (drawn.part.empty() || drawn.part.size() >= 3),
               "what is drawn is a face or a part of it");
-      require(drawn.part.empty() ? whole.insert(drawn.face).second : (in_parts.insert(drawn.face), true),
-              "a face is drawn once");
+      const bool is_first = drawn.part.empty() && whole.insert(drawn.face).second;
+      require(is_first || !drawn.part.empty(), "a face is drawn once");
+      if (!drawn.part.empty()) in_parts.insert(drawn.face);
     }
     for (const Face_id face : taken_answer->abstained)
       require(!whole.contains(face) && !in_parts.contains(face) &&
