@@ -33,30 +33,23 @@ struct Boolean_arguments {
   Scene_format format;
   bool snap = false;
   int threads = 0;
-  double budget = 0;  ///< seconds; 0: none
+  double budget = 0;  ///< seconds; 0: no limit
+
+  bool rounds() const { return !out.empty() && format_of_ending(out) != Format::qoff; }
+  Read_options reading() const {
+    Read_options options;
+    options.round_to_double = coordinates == "double";
+    return options;
+  }
 };
 
-/// Ends the work once its seconds are over; not while it writes.
-class Time_left {
- public:
-  explicit Time_left(double seconds) : seconds_(seconds) {}
-  void ask(const char* when) const {
-    ask_with([&] { return when; });
-  }
-  /// A share of a stage that is done with.
-  void ask(const char* stage, std::size_t done, std::size_t all) const {
-    ask_with([&] { return fmt::format("after {}% of {}", all == 0 ? 0 : 100 * done / all, stage); });
-  }
-
- private:
-  void ask_with(const auto& what) const {
-    if (seconds_ > 0 && watch_.seconds() > seconds_)
-      throw Out_of_budget(
-          fmt::format("undecided: the budget of {} s ran out {}; nothing is written", seconds_, what()));
-  }
-  double seconds_;
-  Stopwatch watch_;
-};
+/// Ends the work once its seconds are over; not while it writes. `when`: with its values, how far it came.
+template <class... Values>
+void end_if_over(const Time_limit& limit, fmt::format_string<Values...> when, Values... values) {
+  if (limit.is_over())
+    throw Out_of_budget(fmt::format("undecided: the budget of {} s ran out {}; nothing is written", limit.seconds(),
+                                    fmt::format(when, std::move(values)...)));
+}
 
 template <class List>
 auto named(const List& list, const std::string& name) {
@@ -259,123 +252,166 @@ Grouped_polygons drawing_of(const Boolean_arguments& a, const Hole_free& flat, c
   return polygons;
 }
 
-Exit run(const Boolean_arguments& a, const Command& command) {
-  const bool rounds = !a.out.empty() && format_of_ending(a.out) != Format::qoff;
-  if (!rounds && (a.snap || a.round == "float"))
+/// Of what does not go together.
+void check_usage(const Boolean_arguments& a) {
+  if (!a.rounds() && (a.snap || a.round == "float"))
     throw Usage_error(std::string(a.snap ? "--snap" : "--round float") +
                       " is for rounded points: give --out a format that rounds, .obj .off .ply .stl");
   if (a.solids.size() < 2 && a.operation != name(Set_operation::unite))
     throw Usage_error(a.operation + " is of two solids or more: name another one; a union may be of one");
-  // 1. The solids.
-  Stopwatch watch;
-  Read_options reading;
-  reading.round_to_double = a.coordinates == "double";
-  std::vector<Polygon_soup> solids;
-  for (const std::string& file : a.solids) solids.push_back(a.format.read(file, reading));
-  const double read_seconds = watch.seconds();
-  watch = {};
-  Set_options options;
-  options.operation = named(set_operations, a.operation);
-  options.inside = named(inside_rules, a.inside);
-  options.keep_fragments = !a.certificate.empty();
-  Progress progress(a.operation);
-  const Time_left time(a.budget);
-  options.progress = [&](std::size_t done, std::size_t all) {
-    time.ask("the operation", done, all);
-    progress(done, all);
-  };
-  Set_result result;
-  double prepare_seconds = 0;
-  std::optional<Operands> operands;
-  run_with_threads(a.threads, [&] {
-    operands.emplace(solids);
-    time.ask("once the solids stood on one grid");
-    refuse_flaws(a, solids, *operands);
-    prepare_seconds = watch.seconds();
-    watch = {};
-    // 2. The operation.
-    result = set_operation(*operands, options);
-  });
-  const double seconds = watch.seconds();
-  progress.clear();
+}
 
-  // 3. What is written.
-  const Hole_free flat = without_holes(result.soup);
-  time.ask("before its volume was known");
-  const Rational size = volume(result.soup);
-  time.ask("before its surface was ready to be written");
-  const std::optional<Rounded_surface> rounding =
-      a.out.empty() ? std::nullopt
-                    : write_solid(flat.soup, a.out, a.round == "float", a.snap,
-                                  [&](std::size_t, std::size_t) { time.ask("while its points were rounded"); });
-  const auto before = [&](std::size_t written_face) {  // the face of flat.soup
-    return rounding ? rounding->face_of[written_face] : static_cast<Face_id>(written_face);
-  };
-  const std::size_t faces_written = rounding ? rounding->face_of.size() : flat.face_of.size();
-  if (!a.certificate.empty())
-    write_file(a.certificate,
-               [&](std::ostream& out) { write_solid_certificate(out, solid_certificate(*operands, options, result)); });
-  if (!a.html.empty()) write_page(a, flat, result, size);
-  if (!a.mesh.empty()) write_drawings("", a.mesh, drawing_of(a, flat, result));
+/// What the operation makes of the solids, and how long it took.
+struct Combination {
+  std::optional<Operands> operands;
+  Set_result result;
+  double prepare_seconds = 0, seconds = 0;
+};
+
+Combination combination_of(const Boolean_arguments& a, const std::vector<Polygon_soup>& solids,
+                           const Set_options& options, const Time_limit& limit) {
+  Combination made;
+  Stopwatch watch;
+  run_with_threads(a.threads, [&] {
+    made.operands.emplace(solids);
+    end_if_over(limit, "once the solids stood on one grid");
+    refuse_flaws(a, solids, *made.operands);
+    made.prepare_seconds = watch.seconds();
+    watch = {};
+    made.result = set_operation(*made.operands, options);
+  });
+  made.seconds = watch.seconds();
+  return made;
+}
+
+/// The result's surface as --out holds it: without holes, and rounded where its format demands that.
+struct Written_surface {
+  Hole_free flat;
+  Rational volume;
+  std::optional<Rounded_surface> rounding;
+
+  std::size_t face_count() const { return rounding ? rounding->face_of.size() : flat.face_of.size(); }
+  /// The face of the result that a written one is a part of.
+  Face_id face_of(std::size_t written) const {
+    return flat.face_of[rounding ? rounding->face_of[written] : static_cast<Face_id>(written)];
+  }
+};
+
+Written_surface written_surface(const Boolean_arguments& a, const Set_result& result, const Time_limit& limit) {
+  Written_surface written{without_holes(result.soup), {}, {}};
+  end_if_over(limit, "before its volume was known");
+  written.volume = volume(result.soup);
+  end_if_over(limit, "before its surface was ready to be written");
+  if (!a.out.empty())
+    written.rounding = write_solid(written.flat.soup, a.out, a.round == "float", a.snap, [&](std::size_t, std::size_t) {
+      end_if_over(limit, "while its points were rounded");
+    });
+  return written;
+}
+
+/// Of each written face: which face of which solid it is of, and whether turned round; of levels, in which brush.
+void add_provenance(Json& to, const Boolean_arguments& a, const Set_result& result, const Written_surface& written) {
+  std::vector<std::vector<Json>> brushes_of;  // by operand and face
+  bool is_level = false;
+  for (const std::string& file : a.solids)
+    is_level |= !brushes_of.emplace_back(brushes_of_faces(file, a.reading())).empty();
+  Json provenance = Json::array(), turned = Json::array(), brushes = Json::array();
+  for (std::size_t f = 0; f < written.face_count(); ++f) {
+    const Result_face& face = result.faces[written.face_of(f)];
+    provenance.push_back({face.operand, face.face});
+    if (face.turned) turned.push_back(f);
+    const std::vector<Json>& of_operand = brushes_of[face.operand];
+    brushes.push_back(of_operand.empty() ? Json() : of_operand[face.face]);
+  }
+  to["provenance"] = std::move(provenance);
+  to["turned"] = std::move(turned);
+  if (is_level) to["brushes"] = std::move(brushes);
+}
+
+Json result_json(const Boolean_arguments& a, const Set_result& result, const Written_surface& written) {
   Json not_manifold = Json::array();
   for (const Crowded_edge& edge : result.crowded)
     not_manifold.push_back({{"from", point_json(result.soup.point(edge.from))},
                             {"to", point_json(result.soup.point(edge.to))},
                             {"faces", edge.faces}});
-  if (!a.json.empty()) {
-    const std::array<double, 2> surface = area(result.soup);
-    Json provenance = Json::array(), turned = Json::array(), brushes = Json::array();
-    std::vector<std::vector<Json>> brushes_of;  // by operand and face
-    bool is_level = false;
-    for (const std::string& file : a.solids)
-      is_level |= !brushes_of.emplace_back(brushes_of_faces(file, reading)).empty();
-    for (std::size_t f = 0; f < faces_written; ++f) {
-      const Result_face& face = result.faces[flat.face_of[before(f)]];
-      provenance.push_back({face.operand, face.face});
-      if (face.turned) turned.push_back(f);
-      const std::vector<Json>& of_operand = brushes_of[face.operand];
-      brushes.push_back(of_operand.empty() ? Json() : of_operand[face.face]);
-    }
-    Json document;
-    document["command"] = "boolean";
-    document["scene"] = operands_json(solids, *operands);
-    document["result"] = {{"operation", a.operation},
-                          {"inside", a.inside},
-                          {"faces", faces_written},
-                          {"maximal_faces", result.soup.face_count()},
-                          {"points", result.soup.point_count()},
-                          {"volume", to_string(size)},
-                          {"area", surface},
-                          {"not_manifold", not_manifold},
-                          {"provenance", std::move(provenance)},
-                          {"turned", std::move(turned)}};
-    if (is_level) document["result"]["brushes"] = std::move(brushes);
-    if (rounding) document["result"]["rounding"] = rounding_json(*rounding);
-    document["counters"] = counters_json(result.counters);
-    document["seconds"] = {{"read", read_seconds}, {"prepare", prepare_seconds}, {"boolean", seconds}};
-    write_file(a.json, to_text(document, 1) + "\n");
-  }
-  if (command.writes_standard_output()) return Exit::done;
+  Json json{{"operation", a.operation},
+            {"inside", a.inside},
+            {"faces", written.face_count()},
+            {"maximal_faces", result.soup.face_count()},
+            {"points", result.soup.point_count()},
+            {"volume", to_string(written.volume)},
+            {"area", area(result.soup)},
+            {"not_manifold", std::move(not_manifold)}};
+  add_provenance(json, a, result, written);
+  if (written.rounding) json["rounding"] = rounding_json(*written.rounding);
+  return json;
+}
 
-  // 4. For people.
+/// For people.
+void print(const Boolean_arguments& a, const std::vector<Polygon_soup>& solids, const Combination& made,
+           const Written_surface& written, double read_seconds) {
+  const Set_result& result = made.result;
   const Set_counters& c = result.counters;
   row("solids", fmt::format("{}, of {} faces in {} convex pieces", solids.size(), c.faces, c.pieces));
-  solid_rows(solids, *operands, options.inside == Inside_rule::positive);
+  solid_rows(solids, *made.operands, a.inside == name(Inside_rule::positive));
   row("result", fmt::format("{} faces, {} points; written as {} faces without holes", result.soup.face_count(),
-                            result.soup.point_count(), faces_written));
-  if (rounding) row("rounded", rounding_text(*rounding));
-  if (!a.out.empty() && !rounds && !has_short_denominator(flat.soup))
+                            result.soup.point_count(), written.face_count()));
+  if (written.rounding) row("rounded", rounding_text(*written.rounding));
+  if (!a.out.empty() && !a.rounds() && !has_short_denominator(written.flat.soup))
     row("exact", fmt::format("its points have a common denominator of more than {} bits: `verify --result` reads {}, "
                              "other commands with --coordinates double",
                              largest_common_denominator_bits, a.out));
-  row("volume", digits_of(size, 17));
+  row("volume", digits_of(written.volume, 17));
   row("edges", result.crowded.empty()
                    ? "each of two faces"
                    : fmt::format("{} of more than two faces: --json lists them", result.crowded.size()));
   row("met", fmt::format("{} pieces meet others and became {} fragments; {} rays", c.touched,
                          c.fragments - (c.pieces - c.touched), c.rays));
   row("seconds", fmt::format("{:.3f} to read, {:.3f} to prepare, {:.3f} for the operation", read_seconds,
-                             prepare_seconds, seconds));
+                             made.prepare_seconds, made.seconds));
+}
+
+Exit run(const Boolean_arguments& a, const Command& command) {
+  check_usage(a);
+
+  // 1. The solids.
+  const Stopwatch watch;
+  std::vector<Polygon_soup> solids;
+  for (const std::string& file : a.solids) solids.push_back(a.format.read(file, a.reading()));
+  const double read_seconds = watch.seconds();
+
+  // 2. The operation.
+  Progress progress(a.operation);
+  const Time_limit limit(a.budget);
+  Set_options options;
+  options.operation = named(set_operations, a.operation);
+  options.inside = named(inside_rules, a.inside);
+  options.keep_fragments = !a.certificate.empty();
+  options.progress = [&](std::size_t done, std::size_t all) {
+    end_if_over(limit, "after {}% of the operation", all == 0 ? 0 : 100 * done / all);
+    progress(done, all);
+  };
+  const Combination made = combination_of(a, solids, options, limit);
+  progress.clear();
+
+  // 3. What is written.
+  const Written_surface written = written_surface(a, made.result, limit);
+  if (!a.certificate.empty())
+    write_file(a.certificate, [&](std::ostream& out) {
+      write_solid_certificate(out, solid_certificate(*made.operands, options, made.result));
+    });
+  if (!a.html.empty()) write_page(a, written.flat, made.result, written.volume);
+  if (!a.mesh.empty()) write_drawings("", a.mesh, drawing_of(a, written.flat, made.result));
+  if (!a.json.empty()) {
+    Json document;
+    document["command"] = "boolean";
+    document["scene"] = operands_json(solids, *made.operands);
+    document["result"] = result_json(a, made.result, written);
+    document["counters"] = counters_json(made.result.counters);
+    document["seconds"] = {{"read", read_seconds}, {"prepare", made.prepare_seconds}, {"boolean", made.seconds}};
+    write_file(a.json, to_text(document, 1) + "\n");
+  }
+  if (!command.writes_standard_output()) print(a, solids, made, written, read_seconds);
   return Exit::done;
 }
 

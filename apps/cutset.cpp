@@ -218,17 +218,112 @@ Exit run_decisions(const Cutset_arguments& arguments) {
   return Exit::done;
 }
 
-}  // namespace
-
-static Exit run(const Cutset_arguments& arguments) {
-  const Common& common = arguments.common;
+/// Of what does not go together.
+void check_usage(const Cutset_arguments& arguments) {
   check_usage(arguments.path);
-  if (arguments.path.given() == arguments.decisions.wanted)
+  const Decision_arguments& decisions = arguments.decisions;
+  if (arguments.path.given() == decisions.wanted)
     throw Usage_error("cutset wants a path (--path FILE, --orbit FRAMES or --motion FILE) or --decision-tree");
-  if (!arguments.decisions.wanted && (arguments.decisions.inside || !arguments.decisions.likelihood.empty()))
+  if (!decisions.wanted && (decisions.inside || !decisions.likelihood.empty()))
     throw Usage_error("--inside and --likelihood go with --decision-tree");
-  if (arguments.decisions.wanted && !arguments.html.empty())
+  if (decisions.wanted && !arguments.html.empty())
     throw Usage_error("--html shows a path: leave it out with --decision-tree");
+}
+
+/// By the tracker or by an update as published, which tests all nodes for the first frame.
+Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph,
+                const Path& path) {
+  if (arguments.method == "tracker") {
+    Cut_set_tracker tracker(traits, graph);
+    return follow(arguments, traits, graph, path, tracker,
+                  [&](const Viewpoint& view) { return tracker.move_to(view); });
+  }
+  Cut_set_1977<Exact_traits> update(traits, graph, path.at(0),
+                                    arguments.method == "1977" ? Reading_1977::mended : Reading_1977::literal);
+  bool started = false;
+  return follow(arguments, traits, graph, path, update, [&](const Viewpoint& view) {
+    Cut_set_counters counters;
+    counters.tests = started ? update.update_1977(view) : graph.size();
+    started = true;
+    return counters;
+  });
+}
+
+/// The frames that were picked for it, beside each other.
+void write_picture(const Cutset_arguments& arguments, const Face_graph& graph, const std::vector<Frame>& frames) {
+  std::vector<Outline> outlines;
+  for (const Frame& frame : frames)
+    if (!frame.nodes.empty())
+      outlines.push_back({frame.view, frame.nodes, frame.number,
+                          fmt::format("{}: {} on-view, {} tests", frame.number, frame.on_view, frame.counters.tests)});
+  write_file(arguments.svg, painted(graph, outlines, arguments.canvas, arguments.shade == "lambert"));
+}
+
+/// Components that are convex bodies.
+std::size_t convex_bodies(const Face_graph& graph) {
+  std::size_t convex = 0;
+  for (const Face_graph::Component& component : graph.components()) convex += component.inside.has_value();
+  return convex;
+}
+
+Json counters_of(const Face_graph& graph, const Followed& followed) {
+  Json counters{{"nodes", graph.size()},
+                {"edges", graph.edges().size()},
+                {"components", graph.components().size()},
+                {"convex", convex_bodies(graph)},
+                {"refused", graph.refused()},
+                {"first_tests", followed.frames.front().counters.tests}};
+  append_counters(counters, followed.total);
+  return counters;
+}
+
+/// What frames took, all faces and the cut-set's edges beside it; the first one apart, which tests all.
+void print_tests(const Followed& followed, const Face_graph& graph, bool is_tracked) {
+  const Cut_set_counters &total = followed.total, &first = followed.frames.front().counters;
+  const std::size_t later = followed.count - 1;
+  const std::uint64_t tests = total.tests - first.tests, away = total.away - first.away;
+  const auto a_frame = [&](std::uint64_t part) {
+    return later == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(later);
+  };
+  const double share =
+      later == 0 || graph.size() == 0 ? 0 : static_cast<double>(tests) / static_cast<double>(later * graph.size());
+  row("tests",
+      fmt::format(
+          "{} for the first frame; then {:.4g} a frame: {:.3g}% of testing all faces, {:.3g} for each "
+          "edge of the cut-set",
+          first.tests, a_frame(tests), 100 * share,
+          followed.cut_edges == 0 ? 0.0 : static_cast<double>(tests) / static_cast<double>(followed.cut_edges)));
+  if (is_tracked && later > 0)
+    row("tests split", fmt::format("{:.4g} a frame at the cut-set, {:.4g} away from it, where births are looked for",
+                                   a_frame(tests - away), a_frame(away)));
+  row("beyond doubles", fmt::format("{} of {} tests", total.exact, total.tests));
+  if (is_tracked)
+    row("changes",
+        fmt::format(
+            "{} of nodes, {} clusters born away from the cut-set, {} searches of convex bodies that showed no face",
+            total.changed, total.births, total.searches));
+}
+
+void print(const Cutset_arguments& arguments, const Face_graph& graph, const Followed& followed, double graph_seconds) {
+  scene_rows(graph.scene());
+  row("face graph",
+      fmt::format("{} nodes (faces joined across coplanar edges), {} edges, {} components, {} of them convex bodies",
+                  graph.size(), graph.edges().size(), graph.components().size(), convex_bodies(graph)));
+  if (graph.refused() > 0)
+    row("not manifold", fmt::format("{} pieces stand apart in the graph: births, not the cut-set, find their changes",
+                                    graph.refused()));
+  print_frames(followed, arguments.check);
+  print_tests(followed, graph, arguments.method == "tracker");
+  if (arguments.check)
+    row("check", followed.wrong == 0 ? fmt::format("all {} frames equal brute force", followed.count)
+                                     : fmt::format("{} of {} frames are WRONG", followed.wrong, followed.count));
+  row("seconds",
+      fmt::format("{:.3f} for the graph, {:.4f} for {} frames", graph_seconds, followed.seconds, followed.count));
+}
+
+Exit run(const Cutset_arguments& arguments) {
+  const Common& common = arguments.common;
+  check_usage(arguments);
   if (arguments.decisions.wanted) return run_decisions(arguments);
   const Scene scene(common.read());
   const Path path = path_of(arguments.path, scene);
@@ -236,87 +331,20 @@ static Exit run(const Cutset_arguments& arguments) {
   const Face_graph graph(scene);
   const Exact_traits traits(scene);
   const double graph_seconds = watch.seconds();
+  const Followed followed = follow(arguments, traits, graph, path);
 
-  Followed followed;
-  if (arguments.method == "tracker") {
-    Cut_set_tracker tracker(traits, graph);
-    followed =
-        follow(arguments, traits, graph, path, tracker, [&](const Viewpoint& view) { return tracker.move_to(view); });
-  } else {
-    Cut_set_1977<Exact_traits> update(traits, graph, path.at(0),
-                                      arguments.method == "1977" ? Reading_1977::mended : Reading_1977::literal);
-    bool started = false;
-    const auto move = [&](const Viewpoint& view) {
-      Cut_set_counters counters;
-      counters.tests = started ? update.update_1977(view) : graph.size();
-      started = true;
-      return counters;
-    };
-    followed = follow(arguments, traits, graph, path, update, move);
-  }
-
-  const auto& [frames, page, total, count, wrong, cut_edges, seconds] = followed;
-  std::size_t convex = 0;
-  for (const Face_graph::Component& component : graph.components()) convex += component.inside.has_value();
-  if (!arguments.svg.empty()) {
-    std::vector<Outline> outlines;
-    for (const Frame& frame : frames)
-      if (!frame.nodes.empty())
-        outlines.push_back(
-            {frame.view, frame.nodes, frame.number,
-             fmt::format("{}: {} on-view, {} tests", frame.number, frame.on_view, frame.counters.tests)});
-    write_file(arguments.svg, painted(graph, outlines, arguments.canvas, arguments.shade == "lambert"));
-  }
-
+  if (!arguments.svg.empty()) write_picture(arguments, graph, followed.frames);
   if (!arguments.html.empty()) write_page(arguments, graph, followed);
-
-  const std::size_t later = count - 1;
-  const std::uint64_t later_tests = total.tests - frames.front().counters.tests;
-  const auto share = [&](std::uint64_t part) {
-    return later == 0 || graph.size() == 0 ? 0 : static_cast<double>(part) / static_cast<double>(later * graph.size());
-  };
-  Json counters{
-      {"nodes", graph.size()}, {"edges", graph.edges().size()}, {"components", graph.components().size()},
-      {"convex", convex},      {"refused", graph.refused()},    {"first_tests", frames.front().counters.tests}};
-  append_counters(counters, total);
   Json result;
-  if (!common.json.empty()) result["frames"] = frames_json(frames, arguments);
-  if (arguments.check) result["wrong_frames"] = wrong;
-  const Exit exit = wrong > 0 ? Exit::disagreement : Exit::done;
-  if (write_json(common, "cutset", scene, std::move(result), counters, {{"graph", graph_seconds}, {"frames", seconds}}))
-    return exit;
-  scene_rows(scene);
-  row("face graph",
-      fmt::format("{} nodes (faces joined across coplanar edges), {} edges, {} components, {} of them convex bodies",
-                  graph.size(), graph.edges().size(), graph.components().size(), convex));
-  if (graph.refused() > 0)
-    row("not manifold", fmt::format("{} pieces stand apart in the graph: births, not the cut-set, find their changes",
-                                    graph.refused()));
-  print_frames(followed, arguments.check);
-  row("tests", fmt::format("{} for the first frame; then {:.4g} a frame: {:.3g}% of testing all faces, {:.3g} for each "
-                           "edge of the cut-set",
-                           frames.front().counters.tests,
-                           later == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(later),
-                           100 * share(later_tests),
-                           cut_edges == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(cut_edges)));
-  if (arguments.method == "tracker" && later > 0)
-    row("tests split",
-        fmt::format(
-            "{:.4g} a frame at the cut-set, {:.4g} away from it, where births are looked for",
-            static_cast<double>(later_tests - (total.away - frames.front().counters.away)) / static_cast<double>(later),
-            static_cast<double>(total.away - frames.front().counters.away) / static_cast<double>(later)));
-  row("beyond doubles", fmt::format("{} of {} tests", total.exact, total.tests));
-  if (arguments.method == "tracker")
-    row("changes",
-        fmt::format(
-            "{} of nodes, {} clusters born away from the cut-set, {} searches of convex bodies that showed no face",
-            total.changed, total.births, total.searches));
-  if (arguments.check)
-    row("check", wrong == 0 ? fmt::format("all {} frames equal brute force", count)
-                            : fmt::format("{} of {} frames are WRONG", wrong, count));
-  row("seconds", fmt::format("{:.3f} for the graph, {:.4f} for {} frames", graph_seconds, seconds, count));
-  return exit;
+  if (!common.json.empty()) result["frames"] = frames_json(followed.frames, arguments);
+  if (arguments.check) result["wrong_frames"] = followed.wrong;
+  if (!write_json(common, "cutset", scene, std::move(result), counters_of(graph, followed),
+                  {{"graph", graph_seconds}, {"frames", followed.seconds}}))
+    print(arguments, graph, followed, graph_seconds);
+  return followed.wrong > 0 ? Exit::disagreement : Exit::done;
 }
+
+}  // namespace
 
 void add_cutset(Command program) {
   const Command command =

@@ -5,6 +5,8 @@
 #include "support/number_memory.h"
 #include "support/versions.h"
 
+#include <sightline/kernel/time_limit.h>
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -84,7 +86,7 @@ static Exit run(int argc, char** argv) {
     if (is_without_end(error)) end_without_memory();
     std::cerr << "sightline: " << error.what() << '\n';
     const bool usage = dynamic_cast<const Usage_error*>(&error) != nullptr;
-    const bool budget = dynamic_cast<const Out_of_budget*>(&error) != nullptr;
+    const bool budget = dynamic_cast<const sightline::Out_of_budget*>(&error) != nullptr;
     return usage ? Exit::usage : budget ? Exit::undecided : Exit::bad_input;
   }
 }

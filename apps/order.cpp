@@ -183,6 +183,8 @@ static void write_mesh(const std::string& file, const Outcome& outcome) {
 
 /// Of what does not go together.
 static void check_usage(const Order_arguments& arguments) {
+  if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
+  arguments.view.check_usage(!arguments.svg.empty());
   if (arguments.by_graph() && arguments.kernel != "exact")
     throw Usage_error("--method graph is exact: leave out --kernel");
   if (!arguments.by_graph() && arguments.two_sided)
@@ -193,65 +195,64 @@ static void check_usage(const Order_arguments& arguments) {
     throw Usage_error("--skip-hidden is for a tree, and exact: leave out --method and --kernel");
 }
 
-static Exit run(const Order_arguments& arguments) {
-  const Common& common = arguments.common;
-  if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
-  arguments.view.check_usage(!arguments.svg.empty());
-  const bool by_graph = arguments.by_graph();
-  check_usage(arguments);
-  Scene scene(common.read());
-  const Exact_point eye = eye_of(arguments.eye, scene);
-  const View view = arguments.svg.empty() ? View{eye} : arguments.view.view(eye, scene);
-  const std::optional<std::array<Integer, 4>> near =
-      arguments.svg.empty() || scene.counters().faces == 0 ? std::nullopt : near_plane(view, scene);
-  Progress progress("building");
-  Task task;
-  task.eye = eye;
-  task.bsp.seed = common.seed;
-  task.bsp.threads = common.threads;
-  task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  Graph_order graph;
-  if (by_graph || arguments.skip_hidden) task.near = near;
-  Skipped_order skipped;
-  Outcome outcome = by_graph                ? run_graph(scene, task, arguments.two_sided, graph)
-                    : arguments.skip_hidden ? run_skipping(scene, task, skipped)
-                                            : run_method(arguments.kernel, scene, task);
+/// An order, and what the way to it says besides.
+struct Found_order {
+  Outcome outcome;
+  Graph_order graph;      // by the graph
+  Skipped_order skipped;  // with --skip-hidden
+};
 
-  if (!arguments.certificate.empty()) {
-    task.bsp.progress(1, 1);  // no certificate once the budget is over
-    write_file(arguments.certificate, [&](std::ostream& out) {
-      if (arguments.skip_hidden)
-        write_visible_certificate(out, Exact_view(scene, eye), skipped.surface, eye, {}, task.bsp.progress);
-      else write_certificate(out, certificate_of(scene, eye, outcome, by_graph && !arguments.two_sided));
-    });
+/// Back to front. Pre: the task has a near plane only where a picture wants one of an order that is not a plain tree's.
+static Found_order find_order(const Order_arguments& arguments, Scene& scene, const Task& task) {
+  Found_order found;
+  if (arguments.by_graph()) found.outcome = run_graph(scene, task, arguments.two_sided, found.graph);
+  else if (arguments.skip_hidden) found.outcome = run_skipping(scene, task, found.skipped);
+  else found.outcome = run_method(arguments.kernel, scene, task);
+  return found;
+}
+
+static void write_order_certificate(const Order_arguments& arguments, const Scene& scene, const Exact_point& eye,
+                                    const Found_order& found, const Bsp_options& options) {
+  options.progress(1, 1);  // no certificate once the budget is over
+  write_file(arguments.certificate, [&](std::ostream& out) {
+    if (arguments.skip_hidden)
+      write_visible_certificate(out, Exact_view(scene, eye), found.skipped.surface, eye, {}, options.progress);
+    else
+      write_certificate(out, certificate_of(scene, eye, found.outcome, arguments.by_graph() && !arguments.two_sided));
+  });
+}
+
+/// What is in front of the near plane, where there is one, as a painter paints it. A plain tree is asked again for it.
+static void write_picture(const Order_arguments& arguments, Scene& scene, const View& view, Task task,
+                          const std::optional<std::array<Integer, 4>>& near, const Found_order& found) {
+  std::vector<Drawn> again;
+  if (near && !task.near) {
+    task.near = near;
+    again = run_method(arguments.kernel, scene, task).drawn;
   }
-  if (!arguments.svg.empty()) {
-    std::vector<Drawn>& in_view = arguments.skip_hidden ? skipped.in_view : graph.in_view;
-    if (near && !task.near) {
-      task.near = near;
-      in_view = run_method(arguments.kernel, scene, task).drawn;
-    }
-    Svg svg = empty_picture(view);
-    paint(svg, view, near ? in_view : outcome.drawn, true);
-    write_file(arguments.svg, svg.text());
-  }
+  Svg svg = empty_picture(view);
+  paint(svg, view,
+        !near                   ? found.outcome.drawn
+        : arguments.skip_hidden ? found.skipped.in_view
+        : arguments.by_graph()  ? found.graph.in_view
+                                : again,
+        true);
+  write_file(arguments.svg, svg.text());
+}
 
-  if (!arguments.html.empty()) write_page(arguments, scene, eye, outcome);
-  if (!arguments.mesh.empty()) write_mesh(arguments.mesh, outcome);
-
-  // The other way round is an order, too.
-  if (arguments.front_to_back) std::reverse(outcome.drawn.begin(), outcome.drawn.end());
-
-  progress.clear();
+static Json fragments_json(const std::vector<Drawn>& drawn) {
   Json fragments = Json::array();
-  if (!common.json.empty())
-    for (const Drawn& item : outcome.drawn) {
-      Json vertices = Json::array();
-      for (const Exact_point& p : item.fragment.vertices) vertices.push_back(point_json(p));
-      fragments.push_back({{"face", item.fragment.face}, {"piece", item.number}, {"vertices", std::move(vertices)}});
-    }
+  for (const Drawn& item : drawn) {
+    Json vertices = Json::array();
+    for (const Exact_point& p : item.fragment.vertices) vertices.push_back(point_json(p));
+    fragments.push_back({{"face", item.fragment.face}, {"piece", item.number}, {"vertices", std::move(vertices)}});
+  }
+  return fragments;
+}
+
+static Json counters_of(const Order_arguments& arguments, const Found_order& found) {
+  const Outcome& outcome = found.outcome;
   const Bsp_counters& c = outcome.tree;
-  Json result{{"eye", point_json(eye)}, {"fragments", std::move(fragments)}};
   Json counters{{"kernel", arguments.kernel},
                 {"nodes", c.nodes},
                 {"depth", c.depth},
@@ -263,56 +264,101 @@ static Exit run(const Order_arguments& arguments) {
                 {"degenerate", c.degenerate},
                 {"predicates", predicates_json(c.predicates)},
                 {"eye_predicates", predicates_json(outcome.walk.predicates)}};
-  if (arguments.skip_hidden) {
-    result["visible"] = skipped.surface.visible;
-    result["from_behind"] = skipped.surface.from_behind;
-    counters["skip_hidden"] = counters_json(skipped.counters);
-  }
-  if (by_graph) {
-    Json by = counters_json(graph.tree);
-    append_counters(by, graph.eye);
-    by["pairs"] = graph.tree.search.relation.pairs + graph.eye.search.relation.pairs;
+  if (arguments.skip_hidden) counters["skip_hidden"] = counters_json(found.skipped.counters);
+  if (arguments.by_graph()) {
+    Json by = counters_json(found.graph.tree);
+    append_counters(by, found.graph.eye);
+    by["pairs"] = found.graph.tree.search.relation.pairs + found.graph.eye.search.relation.pairs;
     counters["graph"] = std::move(by);
   }
-  if (write_json(common, "order", scene, std::move(result), counters,
-                 {{"build", outcome.build_seconds}, {"order", outcome.order_seconds}}))
-    return Exit::done;
+  return counters;
+}
 
+/// What --skip-hidden saw, and passed over.
+static void print(const Skipped_order& skipped, const Bsp_counters& tree, std::size_t faces) {
+  row("visible",
+      fmt::format("{} faces, {} from behind", skipped.surface.visible.size(), skipped.surface.from_behind.size()));
+  const Bsp2d_counters& k = skipped.counters;
+  row("not visited",
+      fmt::format("{} of {} nodes, {} of {} fragments, {} of {} faces; {} fragments visited in vain", k.nodes_skipped,
+                  tree.nodes, k.fragments_skipped, tree.fragments, k.faces_skipped, faces, k.hidden + k.edge_on));
+}
+
+/// The first of the fragments, one a line.
+static void print(const std::vector<Drawn>& drawn) {
+  constexpr std::size_t shown = 20;
+  for (std::size_t i = 0; i < std::min(shown, drawn.size()); ++i)
+    std::cout << fmt::format("{:>6}. face {}, piece {}{}\n", i + 1, drawn[i].fragment.face, drawn[i].number,
+                             drawn[i].side == CGAL::ZERO       ? ", edge-on"
+                             : drawn[i].side == CGAL::NEGATIVE ? ", from behind"
+                                                               : "");
+  if (drawn.size() > shown)
+    std::cout << fmt::format("   ... {} more: --json - prints them all, --svg draws them\n", drawn.size() - shown);
+}
+
+static void print(const Order_arguments& arguments, const Scene& scene, const Exact_point& eye,
+                  const Found_order& found) {
+  const Outcome& outcome = found.outcome;
+  const Bsp_counters& c = outcome.tree;
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
   const std::string direction = arguments.front_to_back ? "front to back" : "back to front";
-  if (by_graph)
+  if (arguments.by_graph()) {
+    const Eye_order_counters& by_eye = found.graph.eye;
     row("order", fmt::format("{} polygons, {}; {} off-view, {} searched for this eye, {} cyclic overlaps of "
                              "{} faces took {} cuts",
-                             outcome.drawn.size(), direction, graph.eye.off_view, graph.eye.searched, graph.eye.cycles,
-                             graph.eye.in_cycles, c.splits));
-  else
+                             outcome.drawn.size(), direction, by_eye.off_view, by_eye.searched, by_eye.cycles,
+                             by_eye.in_cycles, c.splits));
+  } else {
     row("order", fmt::format("{} fragments{}, {}; the eye is in the planes of {} nodes", outcome.drawn.size(),
                              arguments.skip_hidden ? " that are seen" : "", direction, outcome.walk.on_planes));
-  if (arguments.skip_hidden) {
-    row("visible",
-        fmt::format("{} faces, {} from behind", skipped.surface.visible.size(), skipped.surface.from_behind.size()));
-    const Bsp2d_counters& k = skipped.counters;
-    row("not visited", fmt::format("{} of {} nodes, {} of {} fragments, {} of {} faces; {} fragments visited in vain",
-                                   k.nodes_skipped, c.nodes, k.fragments_skipped, c.fragments, k.faces_skipped,
-                                   scene.counters().faces, k.hidden + k.edge_on));
   }
+  if (arguments.skip_hidden) print(found.skipped, c, scene.counters().faces);
   if (outcome.not_finite + c.degenerate > 0)
     row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
   row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds,
                              arguments.kernel));
-  if (arguments.certificate.empty() && arguments.svg.empty() && arguments.html.empty() && arguments.mesh.empty()) {
-    constexpr std::size_t shown = 20;
-    for (std::size_t i = 0; i < std::min(shown, outcome.drawn.size()); ++i)
-      std::cout << fmt::format("{:>6}. face {}, piece {}{}\n", i + 1, outcome.drawn[i].fragment.face,
-                               outcome.drawn[i].number,
-                               outcome.drawn[i].side == CGAL::ZERO       ? ", edge-on"
-                               : outcome.drawn[i].side == CGAL::NEGATIVE ? ", from behind"
-                                                                         : "");
-    if (outcome.drawn.size() > shown)
-      std::cout << fmt::format("   ... {} more: --json - prints them all, --svg draws them\n",
-                               outcome.drawn.size() - shown);
+  if (arguments.certificate.empty() && arguments.svg.empty() && arguments.html.empty() && arguments.mesh.empty())
+    print(outcome.drawn);
+}
+
+static Exit run(const Order_arguments& arguments) {
+  const Common& common = arguments.common;
+  check_usage(arguments);
+  Scene scene(common.read());
+  const Exact_point eye = eye_of(arguments.eye, scene);
+  const View view = arguments.svg.empty() ? View{eye} : arguments.view.view(eye, scene);
+  const std::optional<std::array<Integer, 4>> near =
+      arguments.svg.empty() || scene.counters().faces == 0 ? std::nullopt : near_plane(view, scene);
+
+  // 1. The order.
+  Progress progress("building");
+  Task task;
+  task.eye = eye;
+  task.bsp.seed = common.seed;
+  task.bsp.threads = common.threads;
+  task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  if (arguments.by_graph() || arguments.skip_hidden) task.near = near;
+  Found_order found = find_order(arguments, scene, task);
+
+  // 2. What is written of it, back to front.
+  if (!arguments.certificate.empty()) write_order_certificate(arguments, scene, eye, found, task.bsp);
+  if (!arguments.svg.empty()) write_picture(arguments, scene, view, task, near, found);
+  if (!arguments.html.empty()) write_page(arguments, scene, eye, found.outcome);
+  if (!arguments.mesh.empty()) write_mesh(arguments.mesh, found.outcome);
+
+  // 3. What is told of it; the other way round is an order, too.
+  std::vector<Drawn>& drawn = found.outcome.drawn;
+  if (arguments.front_to_back) std::reverse(drawn.begin(), drawn.end());
+  progress.clear();
+  Json result{{"eye", point_json(eye)}, {"fragments", common.json.empty() ? Json::array() : fragments_json(drawn)}};
+  if (arguments.skip_hidden) {
+    result["visible"] = found.skipped.surface.visible;
+    result["from_behind"] = found.skipped.surface.from_behind;
   }
+  if (!write_json(common, "order", scene, std::move(result), counters_of(arguments, found),
+                  {{"build", found.outcome.build_seconds}, {"order", found.outcome.order_seconds}}))
+    print(arguments, scene, eye, found);
   return Exit::done;
 }
 

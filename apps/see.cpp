@@ -273,67 +273,52 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
   return seen;
 }
 
-}  // namespace
-
-static Exit run(const See_arguments& arguments) {
-  const Common& common = arguments.common;
-  if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
+/// Of what does not go together.
+void check_usage(const See_arguments& arguments) {
+  if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
   arguments.view.check_usage(!arguments.svg.empty() || arguments.frustum);
   if (arguments.kernel != "exact" &&
       (!arguments.certificate.empty() || !arguments.svg.empty() || !arguments.html.empty() || !arguments.mesh.empty() ||
        arguments.frustum || arguments.lines || arguments.method != "regions"))
     throw Usage_error(
         "--method, --certificate, --svg, --html, --mesh, --lines and --frustum are exact: leave out --kernel");
-  const Scene scene(common.read());
-  const Exact_point eye = eye_of(arguments.eye, scene);
-  const bool has_view = !arguments.svg.empty() || arguments.frustum;
-  const View view = has_view ? arguments.view.view(eye, scene) : View{eye};
-  const bool empty = scene.counters().faces == 0;
-  Progress progress("looking");
-  Visible_options options;
-  options.threads = common.threads;
-  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  const Seen seen =
-      see(scene, eye, arguments.kernel, field,
-          {arguments.two_sided, !common.json.empty() || !arguments.html.empty() || !arguments.mesh.empty(),
-           arguments.method, arguments.certificate, arguments.lines},
-          options);
+}
 
-  if (!arguments.svg.empty()) {
-    Svg svg = empty_picture(view);
-    if (!empty) {
-      const Seen picture =
-          see(scene, eye, "exact", corner_rays(view), {true, true, arguments.method, "", arguments.lines}, options);
-      paint(svg, view, picture.parts, false, arguments.lines ? pale_look : look_by_face);
-      if (arguments.lines) draw(svg, view, picture);
-    }
-    write_file(arguments.svg, svg.text());
+/// What is in a view, drawn; with --lines as paper for these.
+void write_picture(const See_arguments& arguments, const Scene& scene, const View& view,
+                   const Visible_options& options) {
+  Svg svg = empty_picture(view);
+  if (scene.counters().faces > 0) {
+    const Seen picture =
+        see(scene, view.eye, "exact", corner_rays(view), {true, true, arguments.method, "", arguments.lines}, options);
+    paint(svg, view, picture.parts, false, arguments.lines ? pale_look : look_by_face);
+    if (arguments.lines) draw(svg, view, picture);
   }
+  write_file(arguments.svg, svg.text());
+}
 
-  if (!arguments.html.empty()) {
-    std::optional<Seen> doubles;  // of the whole sphere
-    if (field.empty())
-      doubles = see(scene, eye, "double", field, {arguments.two_sided, false, "regions", "", false}, options);
-    write_page(arguments, scene, eye, seen, doubles ? &*doubles : nullptr);
-  }
-  if (!arguments.mesh.empty()) write_mesh(arguments.mesh, scene, seen);
+/// The parts that count: with --two-sided backs, too.
+std::vector<const Drawn*> counted_parts(const Seen& seen, bool two_sided) {
+  std::vector<const Drawn*> parts;
+  for (const Drawn& drawn : seen.parts)
+    if (two_sided || drawn.side == CGAL::POSITIVE) parts.push_back(&drawn);
+  return parts;
+}
 
-  progress.clear();
-  const auto counted = [&](const Drawn& drawn) { return arguments.two_sided || drawn.side == CGAL::POSITIVE; };
-  std::size_t parts = 0;
+Json parts_json(const std::vector<const Drawn*>& parts) {
   Json pieces = Json::array();
-  for (const Drawn& drawn : seen.parts) {
-    if (!counted(drawn)) continue;
-    ++parts;
-    if (common.json.empty()) continue;
+  for (const Drawn* drawn : parts) {
     Json corners = Json::array();
-    for (const Exact_point& p : drawn.fragment.vertices) corners.push_back(point_json(p));
-    pieces.push_back({{"face", drawn.fragment.face},
-                      {"piece", drawn.fragment.piece},
-                      {"side", drawn.side == CGAL::POSITIVE ? "front" : "back"},
+    for (const Exact_point& p : drawn->fragment.vertices) corners.push_back(point_json(p));
+    pieces.push_back({{"face", drawn->fragment.face},
+                      {"piece", drawn->fragment.piece},
+                      {"side", drawn->side == CGAL::POSITIVE ? "front" : "back"},
                       {"vertices", std::move(corners)}});
   }
+  return pieces;
+}
+
+Json counters_of_seen(const See_arguments& arguments, const Seen& seen) {
   const Visible_counters& c = seen.counters;
   Json counters{
       {"kernel", arguments.kernel}, {"method", arguments.method}, {"pieces", c.pieces}, {"edge_on", seen.edge_on}};
@@ -341,17 +326,28 @@ static Exit run(const See_arguments& arguments) {
   counters["parts"] = seen.parts.size();
   counters["not_finite"] = seen.not_finite;
   counters["predicates"] = predicates_json(c.predicates);
-  Json result{{"eye", point_json(eye)},
-              {"visible", seen.visible},
-              {"from_behind", seen.from_behind},
-              {"pieces", std::move(pieces)}},
-      seconds{{"see", seen.seconds}};
-  if (arguments.lines) {
-    if (!common.json.empty()) result["lines"] = lines_json(scene, seen.lines);
-    seconds["lines"] = seen.line_seconds;
-  }
-  if (write_json(common, "see", scene, std::move(result), counters, seconds)) return Exit::done;
+  return counters;
+}
 
+/// How many of the scene's edges are visible, and how many lines there are where faces cross.
+void print_lines(const Seen& seen) {
+  std::size_t whole = 0, hidden = 0, crossing = 0;
+  for (const Drawn_line& line : seen.lines) {
+    const auto is_hidden = [](const Line_part& part) { return part.hidden_by != Line_part::nothing; };
+    const std::string_view kind = line.kind;
+    crossing += kind == "intersection";
+    whole += kind != "intersection" && std::none_of(line.parts.begin(), line.parts.end(), is_hidden);
+    hidden += std::all_of(line.parts.begin(), line.parts.end(), is_hidden);
+  }
+  row("lines", fmt::format("{} edges: {} visible, {} hidden, {} in part; {} lines where faces cross, {:.3f} seconds",
+                           seen.lines.size() - crossing, whole, hidden, seen.lines.size() - crossing - whole - hidden,
+                           crossing, seen.line_seconds));
+}
+
+/// `parts`: how many count.
+void print(const See_arguments& arguments, const Scene& scene, const Exact_point& eye, const Seen& seen,
+           std::size_t parts) {
+  const Visible_counters& c = seen.counters;
   scene_rows(scene);
   row("eye", fmt::format(
                  "({}, {}, {}){}", to_string(eye[0]), to_string(eye[1]), to_string(eye[2]),
@@ -371,26 +367,62 @@ static Exit run(const See_arguments& arguments) {
     row("regions", fmt::format("{} after {} cuts, {} of them where pieces cross; {} pairs put together again",
                                c.regions, c.splits, c.crossings, c.merged));
   }
-  if (arguments.lines) {
-    std::size_t whole = 0, hidden = 0, crossing = 0;
-    for (const Drawn_line& line : seen.lines) {
-      const auto is_hidden = [](const Line_part& part) { return part.hidden_by != Line_part::nothing; };
-      const std::string_view kind = line.kind;
-      crossing += kind == "intersection";
-      whole += kind != "intersection" && std::none_of(line.parts.begin(), line.parts.end(), is_hidden);
-      hidden += std::all_of(line.parts.begin(), line.parts.end(), is_hidden);
-    }
-    row("lines", fmt::format("{} edges: {} visible, {} hidden, {} in part; {} lines where faces cross, {:.3f} seconds",
-                             seen.lines.size() - crossing, whole, hidden, seen.lines.size() - crossing - whole - hidden,
-                             crossing, seen.line_seconds));
-  }
+  if (arguments.lines) print_lines(seen);
   if (seen.not_finite > 0) row("lost", fmt::format("{} parts are not finite", seen.not_finite));
   row("predicates", fmt::format("{} by names, {} by doubles, {} by fixed width, {} by GMP", c.predicates.combinatorial,
                                 c.predicates.filtered, c.predicates.fixed, c.predicates.gmp));
   row("seconds",
       fmt::format("{:.4f} ({})", seen.seconds, arguments.method == "regions" ? arguments.kernel : arguments.method));
+}
+
+Exit run(const See_arguments& arguments) {
+  const Common& common = arguments.common;
+  check_usage(arguments);
+  const Scene scene(common.read());
+  const Exact_point eye = eye_of(arguments.eye, scene);
+  const bool has_view = !arguments.svg.empty() || arguments.frustum;
+  const View view = has_view ? arguments.view.view(eye, scene) : View{eye};
+
+  // 1. What is seen.
+  Progress progress("looking");
+  Visible_options options;
+  options.threads = common.threads;
+  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const std::vector<Exact_point> field =
+      arguments.frustum && scene.counters().faces > 0 ? corner_rays(view) : std::vector<Exact_point>();
+  const bool corners = !common.json.empty() || !arguments.html.empty() || !arguments.mesh.empty();
+  const Seen seen =
+      see(scene, eye, arguments.kernel, field,
+          {arguments.two_sided, corners, arguments.method, arguments.certificate, arguments.lines}, options);
+
+  // 2. What is drawn of it.
+  if (!arguments.svg.empty()) write_picture(arguments, scene, view, options);
+  if (!arguments.html.empty()) {
+    std::optional<Seen> doubles;  // of the whole sphere
+    if (field.empty())
+      doubles = see(scene, eye, "double", field, {arguments.two_sided, false, "regions", "", false}, options);
+    write_page(arguments, scene, eye, seen, doubles ? &*doubles : nullptr);
+  }
+  if (!arguments.mesh.empty()) write_mesh(arguments.mesh, scene, seen);
+  progress.clear();
+
+  // 3. What is told of it.
+  const std::vector<const Drawn*> parts = counted_parts(seen, arguments.two_sided);
+  Json result{{"eye", point_json(eye)},
+              {"visible", seen.visible},
+              {"from_behind", seen.from_behind},
+              {"pieces", common.json.empty() ? Json::array() : parts_json(parts)}},
+      seconds{{"see", seen.seconds}};
+  if (arguments.lines) {
+    if (!common.json.empty()) result["lines"] = lines_json(scene, seen.lines);
+    seconds["lines"] = seen.line_seconds;
+  }
+  if (!write_json(common, "see", scene, std::move(result), counters_of_seen(arguments, seen), seconds))
+    print(arguments, scene, eye, seen, parts.size());
   return Exit::done;
 }
+
+}  // namespace
 
 void add_see(Command program) {
   const Command command =

@@ -129,6 +129,7 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
     chosen.resize(sample);
   }
   const Stopwatch watch;
+  const Time_limit limit(common.budget);
   Progress progress("verifying");
   Verify_options options;
   options.threads = common.threads;
@@ -140,8 +141,7 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
   for (const Cell_entry& entry : cells) level.push_back({entry.cell, entry.statement.walls, true, {}});
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     progress(i, chosen.size());
-    if (common.budget > 0 && watch.seconds() > common.budget)
-      throw Out_of_budget(fmt::format("the budget ran out after {} of {} cells", i, chosen.size()));
+    if (limit.is_over()) throw Out_of_budget(fmt::format("the budget ran out after {} of {} cells", i, chosen.size()));
     const Cell_entry& entry = cells[chosen[i]];
     const Certificate certificate = certificate_of(entry.file);
     const Weak_certificate* const claim = std::get_if<Weak_certificate>(&certificate);

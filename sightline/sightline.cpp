@@ -32,7 +32,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <list>
 #include <mutex>
@@ -86,13 +85,7 @@ void require_index(std::uint32_t index, std::size_t count) {
 
 // ---- Budgets
 
-std::function<bool()> end_of_budget(const Asking& asking) {
-  if (!(asking.budget > 0)) return {};
-  const auto start = std::chrono::steady_clock::now();
-  return [start, seconds = asking.budget] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds;
-  };
-}
+std::function<bool()> end_of_budget(const Asking& asking) { return Time_limit(asking.budget).end(); }
 
 std::function<void(std::size_t, std::size_t)> progress_within_budget(const Asking& asking) {
   const std::function<bool()> is_over = end_of_budget(asking);

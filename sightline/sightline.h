@@ -6,6 +6,7 @@
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <array>
 #include <cstddef>
@@ -33,11 +34,6 @@ struct Asking {
   double budget = 0;  ///< seconds; 0: none. What weak visibility has not decided then is undecided; other questions
                       ///< throw Out_of_budget
   bool two_sided = false;  ///< of weak visibility, and along a path: faces seen from behind count too
-};
-
-/// The budget of a question ran out before there was an answer.
-struct Out_of_budget : std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 /// Whether the seconds of a question are over, from now on; empty where it has no budget.

@@ -283,7 +283,7 @@ struct Level_trial : Trial {
   }
   Pvs_options within(double budget) const {
     Pvs_options limited = options;
-    limited.search.out_of_time = [this, budget] { return watch.seconds() > budget; };
+    limited.search.out_of_time = Time_limit(budget).end();
     return limited;
   }
   /// On one thread, since processes are made after it.

@@ -95,8 +95,7 @@ struct Weak_trial : Trial {
     task.seed = common.seed;
     Weak_task alone = task;
     alone.threads = 1;
-    watch = {};
-    if (common.budget > 0) alone.out_of_time = [&] { return watch.seconds() > common.budget; };
+    alone.out_of_time = Time_limit(common.budget).end();
     exact = run_weak_method("lines", occluders, sources, alone).found;
 
     // 2. Who is asked.

@@ -1,213 +1,18 @@
 // sightline judge: somebody else's program, asked many cases and graded against the exact truth.
 
+#include "judge.h"
+
 #include "../support/shard.h"
+#include "broken.h"
 #include "kept.h"
 #include "page.h"
-#include "picture.h"
 #include "table.h"
-
-#include <sightline/harness/laws/reduce.h>
 
 namespace sightline::app {
 
 namespace {
 
 using namespace judge;
-
-struct Judge_arguments {
-  std::string program, query, contract, format = "off", json, html, keep, shard;
-  Case_choice choice{{}, {"0", "1", "-1", "far"}, 0, {}, {}};
-  std::size_t cases = 5;
-  std::uint64_t seed = 1;
-  double time = 10, budget = 20, reduce = 0;
-  std::uint64_t memory = 1024;
-  int threads = 0;
-  bool two_sided = false, cycles = false, excuse_touching = false, resume = false,
-       quiet = false;  // quiet: an output takes standard output
-
-  Case_options case_options() const {
-    return {static_cast<Question>(place_of(query, question_names)), two_sided, format != "qoff"};
-  }
-  Court_options court_options() const {
-    return {program,
-            format,
-            static_cast<Contract>(place_of(contract, contract_names)),
-            {time, memory << 20},
-            {threads, budget, cycles, excuse_touching}};
-  }
-  template <std::size_t n>
-  static std::size_t place_of(const std::string& name, const std::array<std::string_view, n>& names) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  }
-};
-
-/// The command that asks one case again, which `which` names.
-std::string command_again(const Judge_arguments& arguments, const std::string& which) {
-  return fmt::format("sightline judge --program {} --query {} --contract {} {}{}{}{}{}", shell_word(arguments.program),
-                     arguments.query, arguments.contract, which,
-                     arguments.format == "off" ? "" : " --format " + arguments.format,
-                     arguments.two_sided ? " --two-sided" : "", arguments.cycles ? " --cycles" : "",
-                     arguments.excuse_touching ? " --excuse-touching" : "");
-}
-
-/// Whether a face has a corner twice.
-bool repeats_a_corner(const Polygon_soup& soup) {
-  for (Face_id f = 0; f < soup.face_count(); ++f) {
-    const auto loop = soup.loop(f);
-    std::set<Exact_point> corners;
-    for (const Point_id p : loop) corners.insert(soup.point(p));
-    if (corners.size() < loop.size()) return true;
-  }
-  return false;
-}
-
-/// Whether a case is broken as another one is: the same mark, and faces wrong in no way that is new.
-bool broken_alike(const Judged& judged, const Judged& broken) {
-  return judged.breaks && judged.mark == broken.mark &&
-         (judged.grade.wrong_visible.empty() || !broken.grade.wrong_visible.empty()) &&
-         (judged.grade.wrong_hidden.empty() || !broken.grade.wrong_hidden.empty());
-}
-
-/// Why a case is wrong, for people: the line that refutes, the share that is wrong, and a picture. Pre: its mark is
-/// `wrong`.
-Json explained(const Judge_arguments& arguments, const Judge_case& asked, const Judged& broken) {
-  const Explanation why = explain(asked.soup, asked.query, broken.answer, broken.grade,
-                                  arguments.court_options().contract, arguments.budget);
-  Json json{{"share", why.share}, {"share_words", why.share_words}, {"line", Json()}};
-  if (why.refutation) {
-    const Refutation& line = *why.refutation;
-    json["line"] = {{"face", line.face},
-                    {"from", point_json(line.from)},
-                    {"to", point_json(line.to)},
-                    {"by", line.by ? Json(*line.by) : Json()},
-                    {"words", line.words}};
-  }
-  json["picture"] = picture_of(asked.soup, asked.query, broken.grade, why);
-  return json;
-}
-
-/// Writes the picture of an explained case beside its scene, where files are kept.
-void keep_picture(const Judge_arguments& arguments, Json& explained_case, const std::string& stem) {
-  if (arguments.keep.empty()) return;
-  const std::string file = (std::filesystem::path(arguments.keep) / (stem + ".svg")).string();
-  write_file(file, explained_case["explained"]["picture"].get<std::string>());
-  explained_case["files"].push_back(file);
-}
-
-/// A case made smaller as long as the program breaks the contract in the same way: how far, and the files that are
-/// kept. Faces stay planar, their corners apart, and coordinates doubles where these are wanted.
-Json made_smaller(const Judge_arguments& arguments, const Court& court, const Judge_case& asked, const Judged& broken) {
-  bool one_ray = false;  // as an eye and a direction
-  const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
-    Query query{asked.query.question, smaller.eye,           smaller.source,   asked.query.two_sided,
-                asked.query.rays,     asked.query.operation, asked.query.first};
-    if (one_ray) query = {query.question, {}, {}, false, {{smaller.eye, smaller.source.at(0)}}};
-    return case_of(smaller.soup, query, arguments.case_options());
-  };
-  const bool repeats = repeats_a_corner(asked.soup);
-  const auto fails = [&](const generate::Posed_scene& smaller) {
-    const Judge_case other = case_of_smaller(smaller);
-    return other.as_given && (repeats || !repeats_a_corner(other.soup)) &&
-           broken_alike(court.judge(other, broken.seed), broken);
-  };
-  Countdown time("reducing", arguments.reduce);
-  harness::Reduce_options options;
-  options.most_tests = 1000000;
-  options.out_of_time = [&] { return time.over(); };
-  generate::Posed_scene scene;
-  scene.soup = asked.soup;
-  scene.eye = asked.query.eye;
-  scene.source = asked.query.source;
-  // Of rays the first is kept that breaks the contract when asked alone.
-  for (const Wrong_ray& wrong : broken.grade.wrong_rays) {
-    generate::Posed_scene alone{scene};
-    alone.eye = asked.query.rays[wrong.ray].origin;
-    alone.source = {asked.query.rays[wrong.ray].direction};
-    one_ray = true;
-    one_ray = fails(alone);
-    if (!one_ray) continue;
-    scene = alone;
-    break;
-  }
-  const harness::Reduced reduced = harness::reduce(scene, fails, options);
-  const Judge_case left = case_of_smaller(reduced.scene);
-  const Judged last = court.judge(left, broken.seed);
-  const std::vector<std::string> files = court.keep_files(arguments.keep, "reduced");
-  Json json{
-      {"faces", last.faces},
-      {"runs", reduced.tests},
-      {"finished", reduced.finished},
-      {"mark", mark_names[static_cast<std::size_t>(last.mark)]},
-      {"why", last.why},
-      {"files", files},
-      {"again", command_again(arguments, "--scenes " + shell_word(files.at(0)) + " --ask " + shell_word(files.at(1)))}};
-  if (last.mark == Mark::wrong) {
-    json["explained"] = explained(arguments, left, last);
-    keep_picture(arguments, json, "reduced");
-  }
-  return json;
-}
-
-/// What a wrong case looks like once it is moved, and under other readings of the question.
-std::vector<std::string> guesses(const Judge_arguments& arguments, const Court& court, const Case_group& group,
-                                 const Judge_case& asked, const Judged& broken) {
-  std::vector<std::string> guesses;
-  for (const Reading reading : lists_faces(broken.answer) ? readings_of(asked.query.question) : std::vector<Reading>())
-    if (is_right(reading, asked.soup, asked.query, broken.answer, arguments.court_options().truth))
-      guesses.push_back("the answer is right read otherwise, " + words_of(reading, asked.query.two_sided));
-  std::vector<Neighbour> neighbours{{group.ulps, true}};
-  std::vector<std::int64_t> places{0};
-  for (const int bits : {0, 12, 22, 32, 44})  // one ulp, 2^-40, 2^-30, 2^-20 and 2^-8 of the size
-    for (const std::int64_t sign : {1, -1}) places.push_back(sign * (std::int64_t{1} << bits));
-  for (const std::int64_t place : places) {
-    if (place == group.ulps) continue;
-    const Judged moved = court.judge(group.moved(broken.seed, place), broken.seed);
-    if (moved.not_asked.empty() && (moved.mark == Mark::right || moved.mark == Mark::wrong))
-      neighbours.push_back({place, moved.mark == Mark::wrong});
-  }
-  if (neighbours.size() > 1) guesses.push_back(words_of(neighbours, group.exactly));
-  return guesses;
-}
-
-/// What all wrong cases have in common.
-class Common_guess {
- public:
-  Common_guess(Question question, bool two_sided) : readings_(readings_of(question)), two_sided_(two_sided) {}
-
-  /// Returns what readings are left. `kept`: those that were left before.
-  const std::vector<Reading>& add(const Judge_case& asked, const Judged& wrong, const Truth_options& options,
-                                  const std::vector<Reading>* kept) {
-    ++wrong_;
-    supported_ = supported_ || lists_faces(wrong.answer);
-    std::erase_if(readings_, [&](Reading reading) {
-      return kept != nullptr ? std::find(kept->begin(), kept->end(), reading) == kept->end()
-                             : !is_right(reading, asked.soup, asked.query, wrong.answer, options);
-    });
-    return readings_;
-  }
-  void add(const Kinds& kinds) {
-    kinds_.concave_right += kinds.concave_right;
-    kinds_.concave_wrong += kinds.concave_wrong;
-    kinds_.convex_right += kinds.convex_right;
-    kinds_.convex_wrong += kinds.convex_wrong;
-  }
-  std::vector<std::string> words() const {
-    std::vector<std::string> all;
-    for (const Reading reading : supported_ ? readings_ : std::vector<Reading>())
-      all.push_back(fmt::format("in {} the answer is right read otherwise, {}",
-                                wrong_ == 1 ? "the one wrong case" : fmt::format("all {} wrong cases", wrong_),
-                                words_of(reading, two_sided_)));
-    if (const std::string kinds = words_of(kinds_); !kinds.empty()) all.push_back(kinds);
-    return all;
-  }
-
- private:
-  std::vector<Reading> readings_;  // under which all wrong answers are right
-  bool two_sided_;
-  std::size_t wrong_ = 0;
-  bool supported_ = false;
-  Kinds kinds_;
-};
 
 /// What --keep writes is neither read nor written by another option.
 void check_kept(const Judge_arguments& arguments) {
@@ -251,30 +56,6 @@ Json asked_json(const Judge_arguments& a, const Court& court, const Shard& own) 
           {"--excuse-touching", a.excuse_touching}};
 }
 
-/// Explains the smallest of the wrong cases that broke the contract, for the page: as many as one looks at.
-void explain_some(const Judge_arguments& arguments, const std::vector<Case_group>& groups,
-                  const std::vector<std::vector<Judged>>& judged, Json& failures) {
-  constexpr std::size_t most = 12;
-  if (arguments.html.empty()) return;
-  struct Wrong {
-    const Case_group* group;
-    const Judged* judged;
-    std::size_t failure;
-  };
-  std::vector<Wrong> wrong;
-  std::size_t failure = 0;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const Judged& c : judged[g]) {
-      if (c.breaks && c.mark == Mark::wrong) wrong.push_back({&groups[g], &c, failure});
-      failure += c.breaks;
-    }
-  std::stable_sort(wrong.begin(), wrong.end(),
-                   [](const Wrong& a, const Wrong& b) { return a.judged->faces < b.judged->faces; });
-  for (std::size_t i = 0; i < std::min(wrong.size(), most); ++i)
-    failures[wrong[i].failure]["explained"] =
-        explained(arguments, wrong[i].group->make(wrong[i].judged->seed), *wrong[i].judged);
-}
-
 /// The sums of all cases at one distance, in the order in which these were asked.
 Json by_distance(const std::vector<Case_group>& groups, const std::vector<std::vector<Judged>>& judged) {
   std::vector<std::string> distances;
@@ -294,7 +75,8 @@ Json by_distance(const std::vector<Case_group>& groups, const std::vector<std::v
   return rows;
 }
 
-Exit run(const Judge_arguments& arguments) {
+/// Of what does not go together.
+void check_usage(const Judge_arguments& arguments) {
   if (!arguments.choice.scenes.empty() && !arguments.choice.families.empty())
     throw Usage_error("--scenes and --families exclude each other: ask twice");
   if (!arguments.choice.ask.empty() && arguments.choice.scenes.empty())
@@ -310,125 +92,213 @@ Exit run(const Judge_arguments& arguments) {
   if (arguments.resume && (arguments.json.empty() || arguments.json == "-"))
     throw Usage_error("--resume keeps what is done beside an output: name it with --json FILE");
   check_kept(arguments);
+}
+
+/// A case as it was judged before, or now.
+struct Heard_case {
+  std::optional<Judge_case> made;  // the case, where it is looked at
+  Kept_case kept;
+};
+
+Heard_case heard(const Judge_arguments& arguments, const Court& court, const Case_group& group, std::uint64_t seed,
+                 const Kept_case* before) {
+  Heard_case heard;
+  if (before == nullptr || before->judged.breaks || before->said) heard.made = group.make(seed);
+  if (before == nullptr) {
+    Judged& now = heard.kept.judged = court.judge(*heard.made, seed);
+    if (arguments.resume && now.not_asked.empty() && (now.breaks || now.mark == Mark::wrong || now.answer.surface))
+      heard.kept.said = court.said();
+    return heard;
+  }
+  heard.kept = *before;
+  Judged& again = heard.kept.judged;
+  if (before->said && again.mark != Mark::invalid && again.mark != Mark::crashed)
+    again.answer = court.read(*heard.made, *before->said);
+  return heard;
+}
+
+/// All cases before a court, one after another, and what they say of the program together.
+class Session {
+ public:
+  Session(const Judge_arguments& arguments, const Court& court, const std::vector<Case_group>& groups)
+      : arguments_(arguments),
+        court_(court),
+        groups_(groups),
+        judged_(groups.size()),
+        common_(arguments.case_options().question, arguments.two_sided) {}
+
+  /// Those of a shard. `kept`: what was judged before, and where it is written what is judged now; null: nowhere.
+  void hear(const Shard& own, Kept_cases* kept) {
+    const auto [shard, shards] = own;
+    const std::uint64_t cases = arguments_.choice.ask.empty() ? arguments_.cases : 1;
+    Progress progress("judging");
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const std::string of = kept != nullptr ? identity(groups_[g]) : "";
+      for (std::uint64_t k = 0; k < cases; ++k) {
+        const std::size_t number = g * cases + k;
+        if (number % shards != shard) continue;
+        hear_case(g, arguments_.seed + k, number, of, kept);
+        progress(++done_, groups_.size() * cases / shards + 1);
+      }
+    }
+  }
+
+  /// Says why cases broke the contract: of the smallest one also what may be the reason, and how small it can be made.
+  void explain() {
+    explain_some();
+    if (smallest_of_ == nullptr) return;
+    if (smallest_["mark"] == "wrong") {
+      const Judge_case asked = smallest_of_->make(smallest_case_.seed);
+      smallest_["explained"] = explained(arguments_, asked, smallest_case_);
+      smallest_["guess"] = guesses(arguments_, court_, *smallest_of_, asked, smallest_case_);
+      keep_picture(arguments_, smallest_, "smallest");
+    }
+    if (arguments_.reduce > 0)
+      smallest_["reduced"] = made_smaller(arguments_, court_, smallest_of_->make(smallest_case_.seed), smallest_case_);
+  }
+
+  Json result() const {
+    Json rows = Json::array();
+    std::vector<const Judged*> all;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      std::vector<const Judged*> cases;
+      for (const Judged& c : judged_[g]) cases.push_back(&c);
+      rows.push_back(sums_row(groups_[g].family, groups_[g].distance, cases));
+      all.insert(all.end(), cases.begin(), cases.end());
+    }
+    const Json total = sums_row("all", "", all);
+    return {{"holds", total["breaches"] == 0},
+            {"rows", std::move(rows)},
+            {"by_distance", by_distance(groups_, judged_)},
+            {"total", total},
+            {"guess", common_.words()},
+            {"not_asked", reasons_},
+            {"smallest", smallest_},
+            {"failures", failures_}};
+  }
+
+  std::size_t done() const { return done_; }
+  std::size_t done_before() const { return done_before_; }  ///< of them, what was there
+
+ private:
+  void hear_case(std::size_t g, std::uint64_t seed, std::size_t number, const std::string& of, Kept_cases* kept) {
+    const Kept_case* const before = kept != nullptr ? kept->find(number, of) : nullptr;
+    Heard_case heard_case = heard(arguments_, court_, groups_[g], seed, before);
+    const Judged& c = judged_[g].emplace_back(heard_case.kept.judged);
+    done_before_ += before != nullptr;
+    if (!c.not_asked.empty()) reasons_[c.not_asked] = reasons_.value(c.not_asked, std::size_t{0}) + 1;
+    common_.add(c.kinds);
+    if (c.mark == Mark::wrong)
+      heard_case.kept.readings = common_.add(*heard_case.made, c, arguments_.court_options().truth,
+                                             before != nullptr ? &before->readings : nullptr);
+    if (before == nullptr && kept != nullptr) kept->add(number, of, heard_case.kept);
+    if (c.breaks) add_failure(groups_[g], c, heard_case, before != nullptr);
+  }
+
+  void add_failure(const Case_group& group, const Judged& c, const Heard_case& heard_case, bool was_heard_before) {
+    failures_.push_back(
+        {{"family", group.family},
+         {"distance", group.distance},
+         {"seed", c.seed},
+         {"faces", c.faces},
+         {"mark", mark_names[static_cast<std::size_t>(c.mark)]},
+         {"why", c.why},
+         {"wrong_visible", c.grade.wrong_visible},
+         {"wrong_hidden", c.grade.wrong_hidden},
+         {"again", command_again(arguments_, fmt::format("{} --cases 1 --seed {}", group.again, c.seed))}});
+    if (!smallest_.is_null() && smallest_["faces"] <= c.faces) return;
+    smallest_ = failures_.back();
+    if (was_heard_before && !arguments_.keep.empty()) court_.put_back(*heard_case.made, heard_case.kept.said);
+    smallest_["files"] =
+        arguments_.keep.empty() ? std::vector<std::string>() : court_.keep_files(arguments_.keep, "smallest");
+    smallest_of_ = &group;
+    smallest_case_ = c;
+  }
+
+  /// The smallest of the wrong cases that broke the contract, for the page: as many as one looks at.
+  void explain_some() {
+    constexpr std::size_t most = 12;
+    if (arguments_.html.empty()) return;
+    struct Wrong {
+      const Case_group* group;
+      const Judged* judged;
+      std::size_t failure;
+    };
+    std::vector<Wrong> wrong;
+    std::size_t failure = 0;
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (const Judged& c : judged_[g]) {
+        if (c.breaks && c.mark == Mark::wrong) wrong.push_back({&groups_[g], &c, failure});
+        failure += c.breaks;
+      }
+    std::stable_sort(wrong.begin(), wrong.end(),
+                     [](const Wrong& a, const Wrong& b) { return a.judged->faces < b.judged->faces; });
+    for (std::size_t i = 0; i < std::min(wrong.size(), most); ++i)
+      failures_[wrong[i].failure]["explained"] =
+          explained(arguments_, wrong[i].group->make(wrong[i].judged->seed), *wrong[i].judged);
+  }
+
+  static Json sums_row(const std::string& family, const std::string& distance,
+                       const std::vector<const Judged*>& cases) {
+    Json row{{"family", family}, {"distance", distance}};
+    row.update(sums_of(cases));
+    return row;
+  }
+
+  const Judge_arguments& arguments_;
+  const Court& court_;
+  const std::vector<Case_group>& groups_;
+  std::vector<std::vector<Judged>> judged_;  // by group
+  Common_guess common_;
+  std::size_t done_ = 0, done_before_ = 0;
+  Json failures_ = Json::array(), reasons_ = Json::object(), smallest_;
+  const Case_group* smallest_of_ = nullptr;  // of the smallest failure: its group, and the case
+  Judged smallest_case_;
+};
+
+Exit run(const Judge_arguments& arguments) {
+  check_usage(arguments);
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
   const Court court(arguments.court_options());
-  const std::uint64_t cases = arguments.choice.ask.empty() ? arguments.cases : 1;
   const Shard own = shard_of(arguments.shard);
-  const auto [shard, shards] = own;
-  std::optional<Kept_cases> kept_cases;
+  std::optional<Kept_cases> kept;
   if (arguments.resume)
-    kept_cases.emplace(arguments.json + ".done", resumed_head("judge", asked_json(arguments, court, own)));
+    kept.emplace(arguments.json + ".done", resumed_head("judge", asked_json(arguments, court, own)));
   const Stopwatch watch;
-  Progress progress("judging");
-  Json document{{"command", "judge"},
-                {"program", arguments.program},
-                {"query", arguments.query},
-                {"two_sided", arguments.two_sided},
-                {"contract", arguments.contract},
-                {"shard", {shard, shards}},
-                {"limits", {{"seconds", arguments.time}, {"bytes", arguments.memory << 20}}},
-                {"result", Json::object()}};
-  Json& result = document["result"];
-  Json rows = Json::array(), failures = Json::array(), smallest, reasons = Json::object();
-  const Case_group* smallest_of = nullptr;
-  Judged smallest_case;
-  Common_guess common(arguments.case_options().question, arguments.two_sided);
-  std::vector<std::vector<Judged>> judged(groups.size());
-  std::size_t done = 0, done_before = 0;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    const Case_group& group = groups[g];
-    const std::string of = arguments.resume ? identity(group) : "";
-    for (std::uint64_t k = 0; k < cases; ++k) {
-      const std::size_t number = g * cases + k;
-      if (number % shards != shard) continue;
-      // 1. The case, as it was judged before, or now.
-      const std::uint64_t seed = arguments.seed + k;
-      const Kept_case* const before = kept_cases ? kept_cases->find(number, of) : nullptr;
-      std::optional<Judge_case> made;
-      if (before == nullptr || before->judged.breaks || before->said) made = group.make(seed);
-      Kept_case now;
-      if (before == nullptr) now.judged = court.judge(*made, seed);
-      else now = *before;
-      if (before == nullptr && arguments.resume && now.judged.not_asked.empty() &&
-          (now.judged.breaks || now.judged.mark == Mark::wrong || now.judged.answer.surface))
-        now.said = court.said();
-      if (before != nullptr && now.said && now.judged.mark != Mark::invalid && now.judged.mark != Mark::crashed)
-        now.judged.answer = court.read(*made, *now.said);
-      const Judged& c = judged[g].emplace_back(now.judged);
-      progress(++done, groups.size() * cases / shards + 1);
-      done_before += before != nullptr;
+  Session session(arguments, court, groups);
+  session.hear(own, kept ? &*kept : nullptr);
+  session.explain();
+  const Json document{{"command", "judge"},
+                      {"program", arguments.program},
+                      {"query", arguments.query},
+                      {"two_sided", arguments.two_sided},
+                      {"contract", arguments.contract},
+                      {"shard", {own.shard, own.shards}},
+                      {"limits", {{"seconds", arguments.time}, {"bytes", arguments.memory << 20}}},
+                      {"result", session.result()},
+                      {"seconds", {{"all", watch.seconds()}}}};
 
-      // 2. What it says of the program.
-      if (!c.not_asked.empty()) reasons[c.not_asked] = reasons.value(c.not_asked, std::size_t{0}) + 1;
-      common.add(c.kinds);
-      if (c.mark == Mark::wrong)
-        now.readings = common.add(*made, c, arguments.court_options().truth, before ? &before->readings : nullptr);
-      if (before == nullptr && kept_cases) kept_cases->add(number, of, now);
-      if (!c.breaks) continue;
-      failures.push_back(
-          {{"family", group.family},
-           {"distance", group.distance},
-           {"seed", c.seed},
-           {"faces", c.faces},
-           {"mark", mark_names[static_cast<std::size_t>(c.mark)]},
-           {"why", c.why},
-           {"wrong_visible", c.grade.wrong_visible},
-           {"wrong_hidden", c.grade.wrong_hidden},
-           {"again", command_again(arguments, fmt::format("{} --cases 1 --seed {}", group.again, c.seed))}});
-      if (!smallest.is_null() && smallest["faces"] <= c.faces) continue;
-      smallest = failures.back();
-      if (before != nullptr && !arguments.keep.empty()) court.put_back(*made, now.said);
-      smallest["files"] =
-          arguments.keep.empty() ? std::vector<std::string>() : court.keep_files(arguments.keep, "smallest");
-      smallest_of = &group;
-      smallest_case = c;
-    }
-    const auto pointers = [](const std::vector<Judged>& of_group) {
-      std::vector<const Judged*> each;
-      for (const Judged& c : of_group) each.push_back(&c);
-      return each;
-    };
-    Json row{{"family", group.family}, {"distance", group.distance}};
-    row.update(sums_of(pointers(judged[g])));
-    rows.push_back(std::move(row));
-  }
-  explain_some(arguments, groups, judged, failures);
-  if (smallest_of != nullptr && smallest["mark"] == "wrong") {
-    const Judge_case asked = smallest_of->make(smallest_case.seed);
-    smallest["explained"] = explained(arguments, asked, smallest_case);
-    smallest["guess"] = guesses(arguments, court, *smallest_of, asked, smallest_case);
-    keep_picture(arguments, smallest, "smallest");
-  }
-  if (smallest_of != nullptr && arguments.reduce > 0)
-    smallest["reduced"] = made_smaller(arguments, court, smallest_of->make(smallest_case.seed), smallest_case);
-  std::vector<const Judged*> all;
-  for (const std::vector<Judged>& of_group : judged)
-    for (const Judged& c : of_group) all.push_back(&c);
-  Json total{{"family", "all"}, {"distance", ""}};
-  total.update(sums_of(all));
-  result["holds"] = total["breaches"] == 0;
-  result["rows"] = std::move(rows);
-  result["by_distance"] = by_distance(groups, judged);
-  result["total"] = total;
-  result["guess"] = common.words();
-  result["not_asked"] = std::move(reasons);
-  result["smallest"] = std::move(smallest);
-  result["failures"] = std::move(failures);
-  document["seconds"] = {{"all", watch.seconds()}};
-
-  progress.clear();
   if (!arguments.html.empty()) write_file(arguments.html, judge_page(document));
   const std::string text = document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
   if (!arguments.json.empty()) write_file(arguments.json, text);
   if (!arguments.quiet) {
     print_table(document);
     print_verdict(document);
-    if (arguments.resume) row("resumed", fmt::format("{} of {} cases were there", done_before, done));
+    if (arguments.resume)
+      row("resumed", fmt::format("{} of {} cases were there", session.done_before(), session.done()));
   }
-  return total["breaches"] == 0 ? Exit::done : Exit::disagreement;
+  return document["result"]["holds"] == true ? Exit::done : Exit::disagreement;
 }
 
 }  // namespace
+
+std::string command_again(const Judge_arguments& arguments, const std::string& which) {
+  return fmt::format("sightline judge --program {} --query {} --contract {} {}{}{}{}{}", shell_word(arguments.program),
+                     arguments.query, arguments.contract, which,
+                     arguments.format == "off" ? "" : " --format " + arguments.format,
+                     arguments.two_sided ? " --two-sided" : "", arguments.cycles ? " --cycles" : "",
+                     arguments.excuse_touching ? " --excuse-touching" : "");
+}
 
 void add_judge(Command program) {
   const Command command = program.add_command(

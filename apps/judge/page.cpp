@@ -86,45 +86,43 @@ std::string table_row(const Json& row, bool is_total) {
          fmt::format("<td>{:.0f}</td></tr>\n", row["bytes"].get<double>() / 1e6);
 }
 
-}  // namespace
+std::string smallest_html(const Json& s) {
+  std::string html = fmt::format(
+      "<div class=\"smallest\"><p>The smallest that breaks it: {} ({}), seed {}, {} faces: {}: {}.<br>Again: "
+      "<code>{}</code></p>\n{}",
+      text_of(s["family"]), text_of(s["distance"]), s["seed"].get<std::uint64_t>(), s["faces"].get<std::size_t>(),
+      text_of(s["mark"]), text_of(s["why"]), text_of(s["again"]), explained(s));
+  if (s.contains("guess"))
+    for (const Json& guess : s["guess"]) html += "<p>A guess: " + text_of(guess) + ".</p>\n";
+  if (s.contains("reduced"))
+    html += fmt::format("<p>Made smaller, it has {} faces: {}: {}.<br>Again: <code>{}</code></p>\n{}",
+                        s["reduced"]["faces"].get<std::size_t>(), text_of(s["reduced"]["mark"]),
+                        text_of(s["reduced"]["why"]), text_of(s["reduced"]["again"]), explained(s["reduced"]));
+  return html + "</div>\n";
+}
 
-std::string judge_page(const Json& document) {
+/// What was asked, whether the contract holds, and the smallest case that breaks it.
+std::string verdict_html(const Json& document) {
   const Json &result = document["result"], &total = result["total"];
-  const bool holds = result["holds"].get<bool>();
   std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>sightline judge</title><style>" +
-      std::string(style) + "</style></head><body>\n";
-
-  // 1. What was asked, and the verdict.
-  html +=
       fmt::format("<h1>{}</h1>\n<p>asked <b>{}</b>{}, promises <b>{}</b>; at most {} s and {:.0f} MB a case</p>\n",
                   text_of(document["program"]), text_of(document["query"]),
                   document["two_sided"] == true ? ", two-sided" : "", text_of(document["contract"]),
                   document["limits"]["seconds"].get<double>(), document["limits"]["bytes"].get<double>() / (1 << 20));
   html += total["asked"] == 0 ? "<p class=\"verdict broken\">Nothing was asked.</p>\n"
-          : holds             ? fmt::format("<p class=\"verdict holds\">The contract holds in all {} cases.</p>\n",
-                                            total["asked"].get<std::size_t>())
-                  : fmt::format("<p class=\"verdict broken\">The contract is broken in {} of {} cases.</p>\n",
-                                total["breaches"].get<std::size_t>(), total["asked"].get<std::size_t>());
-  if (!result["smallest"].is_null()) {
-    const Json& s = result["smallest"];
-    html += fmt::format(
-        "<div class=\"smallest\"><p>The smallest that breaks it: {} ({}), seed {}, {} faces: {}: {}.<br>Again: "
-        "<code>{}</code></p>\n{}",
-        text_of(s["family"]), text_of(s["distance"]), s["seed"].get<std::uint64_t>(), s["faces"].get<std::size_t>(),
-        text_of(s["mark"]), text_of(s["why"]), text_of(s["again"]), explained(s));
-    if (s.contains("guess"))
-      for (const Json& guess : s["guess"]) html += "<p>A guess: " + text_of(guess) + ".</p>\n";
-    if (s.contains("reduced"))
-      html += fmt::format("<p>Made smaller, it has {} faces: {}: {}.<br>Again: <code>{}</code></p>\n{}",
-                          s["reduced"]["faces"].get<std::size_t>(), text_of(s["reduced"]["mark"]),
-                          text_of(s["reduced"]["why"]), text_of(s["reduced"]["again"]), explained(s["reduced"]));
-    html += "</div>\n";
-  }
+          : result["holds"].get<bool>()
+              ? fmt::format("<p class=\"verdict holds\">The contract holds in all {} cases.</p>\n",
+                            total["asked"].get<std::size_t>())
+              : fmt::format("<p class=\"verdict broken\">The contract is broken in {} of {} cases.</p>\n",
+                            total["breaches"].get<std::size_t>(), total["asked"].get<std::size_t>());
+  if (!result["smallest"].is_null()) html += smallest_html(result["smallest"]);
   for (const Json& guess : result["guess"]) html += "<p>A guess: " + text_of(guess) + ".</p>\n";
+  return html;
+}
 
-  // 2. The table.
-  html += "<h2>Cases</h2>\n<p class=\"key\">";
+/// What became of the cases, by family and distance.
+std::string cases_html(const Json& result) {
+  std::string html = "<h2>Cases</h2>\n<p class=\"key\">";
   for (const auto& [mark, colour] : colours)
     html += fmt::format("<span style=\"background:{}\"></span>{}", colour, mark);
   html += "</p>\n<table><tr><th class=\"name\">family</th><th class=\"name\">distance</th><th></th>";
@@ -134,7 +132,7 @@ std::string judge_page(const Json& document) {
     html += fmt::format("<th>{}</th>", head);
   html += "</tr>\n";
   for (const Json& row : result["rows"]) html += table_row(row, false);
-  html += table_row(total, true) + "</table>\n";
+  html += table_row(result["total"], true) + "</table>\n";
   if (result["by_distance"].size() > 1) {
     html +=
         "<h2>By distance from degeneracy</h2>\n<table><tr><th class=\"name\">distance</th><th></th><th>asked</th>"
@@ -147,18 +145,21 @@ std::string judge_page(const Json& document) {
   }
   for (const auto& [reason, count] : result["not_asked"].items())
     html += fmt::format("<p>Not asked: {} cases, as {}.</p>\n", count.get<std::size_t>(), escaped(reason));
+  return html;
+}
 
-  // 3. What broke the contract, the smallest first.
+/// What broke the contract, the smallest first.
+std::string failures_html(const Json& all) {
+  if (all.empty()) return "";
   constexpr std::size_t shown = 40;
   std::vector<const Json*> failures;
-  for (const Json& failure : result["failures"]) failures.push_back(&failure);
+  for (const Json& failure : all) failures.push_back(&failure);
   std::stable_sort(failures.begin(), failures.end(),
                    [](const Json* a, const Json* b) { return (*a)["faces"] < (*b)["faces"]; });
-  if (!failures.empty())
-    html +=
-        "<h2>What broke the contract</h2>\n<table><tr><th class=\"name\">family</th><th "
-        "class=\"name\">distance</th><th>seed</th><th>faces</th><th class=\"name\">case</th><th class=\"name\">why, "
-        "and how to ask it again</th></tr>\n";
+  std::string html =
+      "<h2>What broke the contract</h2>\n<table><tr><th class=\"name\">family</th><th "
+      "class=\"name\">distance</th><th>seed</th><th>faces</th><th class=\"name\">case</th><th class=\"name\">why, "
+      "and how to ask it again</th></tr>\n";
   for (std::size_t i = 0; i < std::min(failures.size(), shown); ++i) {
     const Json& f = *failures[i];
     html += fmt::format(
@@ -167,10 +168,19 @@ std::string judge_page(const Json& document) {
         text_of(f["family"]), text_of(f["distance"]), f["seed"].get<std::uint64_t>(), f["faces"].get<std::size_t>(),
         text_of(f["mark"]), text_of(f["why"]), text_of(f["again"]), explained(f));
   }
-  if (!failures.empty()) html += "</table>\n";
+  html += "</table>\n";
   if (failures.size() > shown)
     html += fmt::format("<p>And {} more: --json has them all.</p>\n", failures.size() - shown);
-  return html + "</body></html>\n";
+  return html;
+}
+
+}  // namespace
+
+std::string judge_page(const Json& document) {
+  const Json& result = document["result"];
+  return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>sightline judge</title><style>" +
+         std::string(style) + "</style></head><body>\n" + verdict_html(document) + cases_html(result) +
+         failures_html(result["failures"]) + "</body></html>\n";
 }
 
 }  // namespace sightline::app

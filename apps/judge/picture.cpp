@@ -102,41 +102,31 @@ void name_at(Svg& svg, const Flat_point& p, const std::string& words) {
   svg.label(p[0] + 8, p[1] - 6, 12, words);
 }
 
-}  // namespace
+/// The line that refutes an answer, or where one looks from, as the picture has it: what is far off stands nearer.
+struct Shown_line {
+  Exact_point from, to;
+  Direction3 along;  // from `to` to where `from` is indeed
+  bool is_far;
 
-std::string picture_of(const Polygon_soup& soup, const judge::Query& query, const judge::Grade& grade,
-                       const judge::Explanation& why) {
-  const bool weak = query.question == judge::Question::weak;
-  std::vector<Exact_point> points;
-  for (Face_id f = 0; f < soup.face_count(); ++f)
-    for (const Point_id p : soup.loop(f)) points.push_back(soup.point(p));
-  if (points.empty()) return {};
-  const double size = Extent(points).size();
-
-  // 1. The line that refutes; an eye that is far from the scene stays outside of the picture.
-  const bool solids = query.question == judge::Question::boolean;
-  Exact_point from = weak ? query.source.at(0) : solids ? points[0] : query.eye, to = points[0];
-  if (why.refutation) {
-    from = why.refutation->from;
-    to = why.refutation->to;
+  Shown_line(const std::vector<Exact_point>& points, const judge::Query& query, const judge::Explanation& why)
+      : from(query.question == judge::Question::weak      ? query.source.at(0)
+             : query.question == judge::Question::boolean ? points[0]
+                                                          : query.eye),
+        to(points[0]) {
+    if (why.refutation) {
+      from = why.refutation->from;
+      to = why.refutation->to;
+    }
+    along = near(minus(from, to));
+    const double size = Extent(points).size(), distance = std::sqrt(dot(along, along));
+    is_far = distance > 4 * size;
+    if (is_far)
+      for (std::size_t k = 0; k < 3; ++k) from[k] = to[k] + exact(along[k] / distance * 3 * size);
   }
-  const Direction3 along = near(minus(from, to));
-  const double distance = std::sqrt(dot(along, along));
-  const bool far = distance > 4 * size;
-  if (far)
-    for (std::size_t k = 0; k < 3; ++k) from[k] = to[k] + exact(along[k] / distance * 3 * size);
-  points.push_back(from);
-  if (weak) points.insert(points.end(), query.source.begin(), query.source.end());
+};
 
-  // 2. Faces, and the source as one of them, as a painter paints them from far off.
-  Polygon_soup all = soup;
-  const Face_id source = static_cast<Face_id>(soup.face_count());
-  if (weak) {
-    std::vector<Point_id> loop;
-    for (const Exact_point& p : query.source) loop.push_back(all.add_point(p[0], p[1], p[2]));
-    all.add_face(loop);
-  }
-  Scene scene(all);
+/// The normal of a face that is refuted; upwards where there is none.
+Direction3 normal_of_refuted(const Scene& scene, const judge::Explanation& why) {
   Direction3 normal{0, 0, 1};
   for (const Piece& piece : scene.pieces()) {
     if (!why.refutation || piece.face != why.refutation->face) continue;
@@ -144,55 +134,60 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
     const Exact_point p = scene.position(corners[0].point);
     normal = unit(near(cross(minus(scene.position(corners[1].point), p), minus(scene.position(corners[2].point), p))));
   }
-  const View view = view_of(points, best_look(unit(along), normal));
-  Task task;
-  task.eye = view.eye;
-  const std::vector<Drawn> drawn = run_method("exact", scene, task).drawn;
-  Svg svg = empty_picture(view);
-  paint(svg, view, drawn, true, [&](const Drawn& item, double shade) {
-    const Face_id face = item.fragment.face;
-    struct Kind {
-      std::string_view title;
-      int hue, strength, light;
-      double opacity;
-    };
-    const auto [title, hue, strength, light, opacity] =
-        weak && face == source                         ? Kind{"the source", 50, 85, 60, 0.9}
-        : holds(grade.wrong_hidden, face)              ? Kind{"left out", 20, 90, 58, 0.6}
-        : holds(grade.wrong_visible, face)             ? Kind{"shown wrongly", 285, 60, 62, 0.6}
-        : why.refutation && why.refutation->by == face ? Kind{"in the way", 205, 55, 58, 0.55}
-                                                       : Kind{"", 140, 12, 72, 0.45};
-    return Look{fmt::format("hsla({},{}%,{:.0f}%,{})", hue, strength, light + 12 * shade, opacity),
-                weak && face == source ? std::string(title)
-                : title.empty()        ? fmt::format("face {}", face)
-                                       : fmt::format("face {}: {}", face, title)};
-  });
+  return normal;
+}
 
-  // 3. The line over them; and the source's outline, which may be that of a face.
-  for (std::size_t k = 0; weak && k < query.source.size(); ++k)
-    svg.line(projected(view, query.source[k]), projected(view, query.source[(k + 1) % query.source.size()]), "#c09000",
-             2);
-  if (why.refutation) {
-    const Flat_point p = projected(view, from), q = projected(view, to);
-    constexpr std::string_view red = "#c01818";
-    if (why.refutation->at) {
-      const Flat_point at = projected(view, *why.refutation->at);
-      svg.line(p, at, red, 2);
-      svg.line(at, q, red, 1.5, true);
-      dot_at(svg, at, 4, red);
-      name_at(svg, at, fmt::format("face {}", *why.refutation->by));
-    } else {
-      svg.line(p, q, red, 2);
-    }
-    dot_at(svg, p, 4.5, "#202020");
-    dot_at(svg, q, 4, red);
-    const std::string looker = solids ? "point" : query.question == judge::Question::trace ? "origin" : "eye";
-    name_at(svg, p, weak ? "source" : far ? looker + ", farther" : looker);
-    name_at(svg, q, fmt::format("face {}", why.refutation->face));
-  } else if (!weak && !solids) {
-    dot_at(svg, projected(view, from), 4.5, "#202020");
+/// How faces look by what the answer makes of them. `source`: the number of the source, where it is one of them.
+Look look_of(Face_id face, const std::optional<Face_id>& source, const judge::Grade& grade,
+             const judge::Explanation& why, double shade) {
+  struct Kind {
+    std::string_view title;
+    int hue, strength, light;
+    double opacity;
+  };
+  const auto [title, hue, strength, light, opacity] =
+      face == source                                 ? Kind{"the source", 50, 85, 60, 0.9}
+      : holds(grade.wrong_hidden, face)              ? Kind{"left out", 20, 90, 58, 0.6}
+      : holds(grade.wrong_visible, face)             ? Kind{"shown wrongly", 285, 60, 62, 0.6}
+      : why.refutation && why.refutation->by == face ? Kind{"in the way", 205, 55, 58, 0.55}
+                                                     : Kind{"", 140, 12, 72, 0.45};
+  return {fmt::format("hsla({},{}%,{:.0f}%,{})", hue, strength, light + 12 * shade, opacity),
+          face == source  ? std::string(title)
+          : title.empty() ? fmt::format("face {}", face)
+                          : fmt::format("face {}: {}", face, title)};
+}
+
+/// The line that refutes, with names; or else the eye, where there is one.
+void draw_line(Svg& svg, const View& view, const Shown_line& line, const judge::Query& query,
+               const judge::Explanation& why) {
+  const bool weak = query.question == judge::Question::weak, solids = query.question == judge::Question::boolean;
+  const Flat_point p = projected(view, line.from);
+  constexpr std::string_view red = "#c01818";
+  if (!why.refutation) {
+    if (!weak && !solids) dot_at(svg, p, 4.5, "#202020");
+    return;
   }
-  const bool order = query.question == judge::Question::order, trace = query.question == judge::Question::trace;
+  const Flat_point q = projected(view, line.to);
+  if (why.refutation->at) {
+    const Flat_point at = projected(view, *why.refutation->at);
+    svg.line(p, at, red, 2);
+    svg.line(at, q, red, 1.5, true);
+    dot_at(svg, at, 4, red);
+    name_at(svg, at, fmt::format("face {}", *why.refutation->by));
+  } else {
+    svg.line(p, q, red, 2);
+  }
+  dot_at(svg, p, 4.5, "#202020");
+  dot_at(svg, q, 4, red);
+  const std::string looker = solids ? "point" : query.question == judge::Question::trace ? "origin" : "eye";
+  name_at(svg, p, weak ? "source" : line.is_far ? looker + ", farther" : looker);
+  name_at(svg, q, fmt::format("face {}", why.refutation->face));
+}
+
+/// What the colours mean that are there, in a line at the bottom.
+void draw_key(Svg& svg, const judge::Query& query, const judge::Grade& grade, const judge::Explanation& why) {
+  const bool order = query.question == judge::Question::order, trace = query.question == judge::Question::trace,
+             solids = query.question == judge::Question::boolean;
   double x = 8;
   const auto key = [&](std::string_view colour, std::string_view words) {
     svg.rectangle(x, 344, 10, 10, colour);
@@ -210,8 +205,48 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
                             : solids ? "holds what is beside"
                                      : "shown but hidden");
   if (why.refutation && why.refutation->by) key("hsl(205,55%,58%)", "in the way");
-  if (weak) key("hsl(50,85%,60%)", "source");
+  if (query.question == judge::Question::weak) key("hsl(50,85%,60%)", "source");
   if (grade.wrong()) key("hsl(140,12%,72%)", "right");
+}
+
+}  // namespace
+
+std::string picture_of(const Polygon_soup& soup, const judge::Query& query, const judge::Grade& grade,
+                       const judge::Explanation& why) {
+  const bool weak = query.question == judge::Question::weak;
+  std::vector<Exact_point> points;
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    for (const Point_id p : soup.loop(f)) points.push_back(soup.point(p));
+  if (points.empty()) return {};
+
+  // 1. The line that refutes; an eye that is far from the scene stays outside of the picture.
+  const Shown_line line(points, query, why);
+  points.push_back(line.from);
+  if (weak) points.insert(points.end(), query.source.begin(), query.source.end());
+
+  // 2. Faces, and the source as one of them, as a painter paints them from far off.
+  Polygon_soup all = soup;
+  std::optional<Face_id> source;
+  if (weak) {
+    source = static_cast<Face_id>(soup.face_count());
+    std::vector<Point_id> loop;
+    for (const Exact_point& p : query.source) loop.push_back(all.add_point(p[0], p[1], p[2]));
+    all.add_face(loop);
+  }
+  Scene scene(all);
+  const View view = view_of(points, best_look(unit(line.along), normal_of_refuted(scene, why)));
+  Task task;
+  task.eye = view.eye;
+  Svg svg = empty_picture(view);
+  paint(svg, view, run_method("exact", scene, task).drawn, true,
+        [&](const Drawn& item, double shade) { return look_of(item.fragment.face, source, grade, why, shade); });
+
+  // 3. The source's outline, which may be that of a face; the line over all.
+  for (std::size_t k = 0; weak && k < query.source.size(); ++k)
+    svg.line(projected(view, query.source[k]), projected(view, query.source[(k + 1) % query.source.size()]), "#c09000",
+             2);
+  draw_line(svg, view, line, query, why);
+  draw_key(svg, query, grade, why);
   return svg.text();
 }
 

@@ -36,7 +36,7 @@ void state_walls(Json& entry, const Cell_statement& statement) {
 /// What the portals of a cell see outwards: how many faces are undecided, as they are once the budget is over; those
 /// that nothing is proved of; then the certificate.
 std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& level, const Occluders& occluders,
-                           const Stopwatch& watch, Cell_id cell) {
+                           const Time_limit& limit, Cell_id cell) {
   Sources sources;
   for (const std::vector<Exact_point>& portal : portals_of(level, cell)) {
     sources.polygons.push_back(weak_source(occluders, portal));
@@ -47,7 +47,7 @@ std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& le
     Weak_task task;
     task.threads = arguments.common.threads;
     task.seed = arguments.common.seed;
-    task.out_of_time = out_of_time(arguments.common, watch);
+    task.out_of_time = limit.end();
     found = run_weak_method("lines", occluders, sources, task).found;
   }
   std::string bytes;
@@ -62,7 +62,7 @@ std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& le
 }  // namespace
 
 bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table,
-                        const Stopwatch& watch, Ranks& ranks) {
+                        const Time_limit& limit, Ranks& ranks) {
   const fs::path folder = arguments.certificates;
   std::error_code error;
   if (ranks.is_first()) fs::create_directories(folder, error);
@@ -77,7 +77,7 @@ bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level
   bool all_decided = true;
   const auto name_of = [](Cell_id cell) { return fmt::format("cell-{}.json", cell); };
   ranks.share(
-      "certificates", asked, [&](Cell_id cell) { return certificate_of(arguments, level, occluders, watch, cell); },
+      "certificates", asked, [&](Cell_id cell) { return certificate_of(arguments, level, occluders, limit, cell); },
       [&](Cell_id cell, const std::string& answer) {
         std::vector<Face_id>& faces = unproved[cell];
         progress(unproved.size(), asked.size());

@@ -9,6 +9,6 @@ namespace sightline::app {
 /// A certificate for each cell that is asked about, made by whoever is free; and an index that states all cells, as the
 /// table of the first process has them. Returns there whether they leave nothing undecided.
 bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table,
-                        const Stopwatch& watch, Ranks& ranks);
+                        const Time_limit& limit, Ranks& ranks);
 
 }  // namespace sightline::app

@@ -15,11 +15,6 @@
 
 namespace sightline::app {
 
-std::function<bool()> out_of_time(const Common& common, const Stopwatch& watch) {
-  if (common.budget <= 0) return {};
-  return [&common, &watch] { return watch.seconds() > common.budget; };
-}
-
 namespace {
 
 /// How much of a whole.
@@ -50,6 +45,7 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   const Quake_level file = read_quake_level({common.scene, bytes});
   const Polygon_soup soup = common.read();
   const Stopwatch watch;
+  const Time_limit limit(common.budget);
   Division division;
   division.candidates = arguments.division.candidates;
   division.seed = common.seed;
@@ -62,7 +58,7 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   options.threads = common.threads;
   options.search.seed = common.seed;
   options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
-  options.search.out_of_time = out_of_time(common, watch);
+  options.search.out_of_time = limit.end();
   const Cell_pvs pvs = mutually_visible_cells(level, options);
   progress.clear();
   const double seconds = watch.seconds() - cells_seconds;
@@ -95,69 +91,52 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   return exit;
 }
 
-Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
-  const Common& common = arguments.common;
-  if (!ranks.is_alone() && arguments.out.ends_with(".bsp"))
-    throw Usage_error("--out FILE.bsp is asked of one process: call it without mpirun");
-  if (arguments.out.ends_with(".bsp")) return run_into_level(arguments);
-  if (!ranks.is_alone() && (common.scene == "-" || arguments.cells == "-"))
-    throw Usage_error("of several processes one alone has a standard input: name a file that all can read");
-  const Shard own = shard_of(arguments.shard);
+/// Of what does not go together.
+void check_usage(const Pvs_arguments& arguments, const Shard& own) {
+  const bool has_drawing = !arguments.svg.empty() || !arguments.obj.empty() || !arguments.mesh.empty();
   if (arguments.resume && (arguments.out.empty() || arguments.out == "-"))
     throw Usage_error("--resume keeps what is done beside an output: name it with --out FILE");
   if (own.shards > 1 && (!arguments.show.empty() || !arguments.certificates.empty()))
     throw Usage_error("a shard has some faces only: leave out --show and --certificates, or --shard");
-  if (arguments.show.empty() && (!arguments.svg.empty() || !arguments.obj.empty() || !arguments.mesh.empty()))
+  if (arguments.show.empty() && has_drawing)
     throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
   arguments.view.check_usage(!arguments.svg.empty());
   if (arguments.svg.empty() && !arguments.eye.empty())
     throw Usage_error("--eye is the eye of the picture: add --svg FILE, or leave it out");
-  const Polygon_soup soup = common.read();
-  std::optional<Cell_file> file;
-  if (!arguments.cells.empty()) file.emplace(arguments.cells, soup);
-  Division division = file ? file->division() : arguments.division.division(common, soup);
-  const Stopwatch watch;
-  const Level_cells level = cells_of(common, soup, division);
-  if (file) division.known_regions = file->checked_regions(level);
-  file.reset();
-  const double cells_seconds = watch.seconds();
+}
 
+/// What --show names is a cell that is asked about.
+void check_shown(const Pvs_arguments& arguments, const Level_cells& level) {
   const std::vector<char> asked = asked_cells(level, arguments.outside);
   for (const Cell_id cell : arguments.show)
     if (cell >= asked.size() || asked[cell] == 0)
       throw Usage_error(
           fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
+}
 
-  Table_maker maker(arguments, division, soup, level, watch);
-  const bool in_blocks = arguments.resume || !ranks.is_alone();
-  const Visibility_table table = in_blocks ? maker.make_in_blocks(own, ranks) : maker.make(own);
-  maker.clear();
-  if (!ranks.is_first()) {
-    if (!arguments.certificates.empty()) write_certificates(arguments, level, table, watch, ranks);
-    return Exit::done;
-  }
-  const double seconds = watch.seconds() - cells_seconds;
-  const std::size_t visible = count_of(table, &Visibility_table::Row::visible),
-                    undecided = count_of(table, &Visibility_table::Row::undecided),
-                    cells_visible = count_of(table, &Visibility_table::Row::cells) / 2,
-                    cells_undecided = count_of(table, &Visibility_table::Row::cells_undecided) / 2;
-  if (!arguments.out.empty()) write_table(arguments.out, table);
-  if (arguments.resume && undecided + cells_undecided == 0) maker.remove_kept();
-  if (!arguments.svg.empty()) draw(arguments, soup, level, table);
-  if (!arguments.obj.empty() || !arguments.mesh.empty())
-    write_drawings(arguments.obj, arguments.mesh, drawing_of(level, table, arguments.show));
-  if (!arguments.html.empty()) write_page(arguments, level, table);
-  const bool all_proved = arguments.certificates.empty() || write_certificates(arguments, level, table, watch, ranks);
+/// What is told of a table.
+struct Table_facts {
+  std::size_t visible, undecided;              // pairs of a cell and a face
+  std::size_t cells_visible, cells_undecided;  // pairs of two cells
+  std::optional<Group_names> names;            // of what cells are within, where there is such a thing
+  std::vector<Group_row> groups;
 
-  const Exit exit = undecided + cells_undecided > 0 || !all_proved ? Exit::undecided : Exit::done;
-  const Pvs_counters& c = maker.counters();
-  const Cell_pvs_counters& of_cells = maker.cell_counters();
-  Json result{{"cells", table.rows.size()},
-              {"faces", std::count(table.faces.begin(), table.faces.end(), true)},
-              {"visible", visible},
-              {"undecided", undecided},
-              {"blocks_kept", maker.blocks_kept()}};
-  if (arguments.cells_too) result["pairs_of_cells"] = {{"visible", cells_visible}, {"undecided", cells_undecided}};
+  bool is_decided() const { return undecided + cells_undecided == 0; }
+};
+
+Table_facts facts_of(const Visibility_table& table, const Division& division, const Level_cells& level) {
+  Table_facts facts{count_of(table, &Visibility_table::Row::visible),
+                    count_of(table, &Visibility_table::Row::undecided),
+                    count_of(table, &Visibility_table::Row::cells) / 2,
+                    count_of(table, &Visibility_table::Row::cells_undecided) / 2,
+                    names_of(division.kind),
+                    {}};
+  if (facts.names) facts.groups = rows_of_groups(division.groups(level), table);
+  return facts;
+}
+
+/// The rows of the cells that --show names.
+Json shown_json(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table) {
   Json shown = Json::array();
   for (const Cell_id cell : arguments.show) {
     const Visibility_table::Row& seen = *table.row_of(cell);
@@ -167,39 +146,102 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
                      {"undecided", seen.undecided}});
     if (arguments.cells_too) shown.back().update({{"cells", seen.cells}, {"cells_undecided", seen.cells_undecided}});
   }
-  if (!shown.empty()) result["shown"] = shown;
-  const std::optional<Group_names> names = names_of(division.kind);
-  std::vector<Group_row> groups;
-  if (names) {
-    groups = rows_of_groups(division.groups(level), table);
-    result[names->all] = groups_json(groups, division, *names);
-  }
-  Json counters = counters_json(c);
-  counters["cells"] = counters_json(level.counters());
-  if (arguments.cells_too) counters["pairs_of_cells"] = counters_json(of_cells);
-  if (write_json(common, "pvs", level.scene(), std::move(result), std::move(counters),
-                 {{"cells", cells_seconds}, {"pvs", seconds}, {"pairs_of_cells", maker.cell_seconds()}}))
-    return exit;
-  scene_rows(level.scene());
-  row("cells", fmt::format("{} of {} are asked about", table.rows.size(), level.counters().cells));
-  row("pairs", fmt::format("{} of a cell and a face: {} visible ({:.3g}%), {} undecided", c.pairs, visible,
-                           percent(visible, c.pairs), undecided));
+  return shown;
+}
+
+Json result_json(const Pvs_arguments& arguments, const Level_cells& level, const Division& division,
+                 const Visibility_table& table, const Table_facts& facts, std::uint32_t blocks_kept) {
+  Json result{{"cells", table.rows.size()},
+              {"faces", std::count(table.faces.begin(), table.faces.end(), true)},
+              {"visible", facts.visible},
+              {"undecided", facts.undecided},
+              {"blocks_kept", blocks_kept}};
+  if (arguments.cells_too)
+    result["pairs_of_cells"] = {{"visible", facts.cells_visible}, {"undecided", facts.cells_undecided}};
+  if (!arguments.show.empty()) result["shown"] = shown_json(arguments, level, table);
+  if (facts.names) result[facts.names->all] = groups_json(facts.groups, division, *facts.names);
+  return result;
+}
+
+/// How the pairs of the table were decided.
+void print(const Table_maker& maker, const Table_facts& facts, bool cells_too) {
+  const Pvs_counters& c = maker.counters();
+  row("pairs", fmt::format("{} of a cell and a face: {} visible ({:.3g}%), {} undecided", c.pairs, facts.visible,
+                           percent(facts.visible, c.pairs), facts.undecided));
   row("seen", fmt::format("{} within their cell, {} by a neighbour's sightline; {} searches, {} of which found hidden, "
                           "{} left to events; {} pairs were not reached",
                           c.within, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
-  if (arguments.cells_too) row_of_cells(of_cells, cells_visible, cells_undecided);
-  if (names) {
-    std::size_t pairs = 0;
-    for (const Group_row& group : groups) pairs += group.visible.size();
-    row(names->words, fmt::format("{} have cells that are asked about; {} pairs of one of them and a face are visible; "
-                                  "--json - lists them",
-                                  groups.size(), pairs));
+  if (cells_too) row_of_cells(maker.cell_counters(), facts.cells_visible, facts.cells_undecided);
+  if (!facts.names) return;
+  std::size_t pairs = 0;
+  for (const Group_row& group : facts.groups) pairs += group.visible.size();
+  row(facts.names->words,
+      fmt::format("{} have cells that are asked about; {} pairs of one of them and a face are visible; "
+                  "--json - lists them",
+                  facts.groups.size(), pairs));
+}
+
+Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
+  const Common& common = arguments.common;
+  if (!ranks.is_alone() && arguments.out.ends_with(".bsp"))
+    throw Usage_error("--out FILE.bsp is asked of one process: call it without mpirun");
+  if (arguments.out.ends_with(".bsp")) return run_into_level(arguments);
+  if (!ranks.is_alone() && (common.scene == "-" || arguments.cells == "-"))
+    throw Usage_error("of several processes one alone has a standard input: name a file that all can read");
+  const Shard own = shard_of(arguments.shard);
+  check_usage(arguments, own);
+
+  // 1. The cells.
+  const Polygon_soup soup = common.read();
+  std::optional<Cell_file> file;
+  if (!arguments.cells.empty()) file.emplace(arguments.cells, soup);
+  Division division = file ? file->division() : arguments.division.division(common, soup);
+  const Stopwatch watch;
+  const Time_limit limit(common.budget);
+  const Level_cells level = cells_of(common, soup, division);
+  if (file) division.known_regions = file->checked_regions(level);
+  file.reset();
+  const double cells_seconds = watch.seconds();
+  check_shown(arguments, level);
+
+  // 2. What they see.
+  Table_maker maker(arguments, division, soup, level, limit);
+  const bool in_blocks = arguments.resume || !ranks.is_alone();
+  const Visibility_table table = in_blocks ? maker.make_in_blocks(own, ranks) : maker.make(own);
+  maker.clear();
+  if (!ranks.is_first()) {
+    if (!arguments.certificates.empty()) write_certificates(arguments, level, table, limit, ranks);
+    return Exit::done;
   }
+  const double seconds = watch.seconds() - cells_seconds;
+  const Table_facts facts = facts_of(table, division, level);
+
+  // 3. What is written.
+  if (!arguments.out.empty()) write_table(arguments.out, table);
+  if (arguments.resume && facts.is_decided()) maker.remove_kept();
+  if (!arguments.svg.empty()) draw(arguments, soup, level, table);
+  if (!arguments.obj.empty() || !arguments.mesh.empty())
+    write_drawings(arguments.obj, arguments.mesh, drawing_of(level, table, arguments.show));
+  if (!arguments.html.empty()) write_page(arguments, level, table);
+  const bool all_proved = arguments.certificates.empty() || write_certificates(arguments, level, table, limit, ranks);
+  const Exit exit = !facts.is_decided() || !all_proved ? Exit::undecided : Exit::done;
+  Json counters = counters_json(maker.counters());
+  counters["cells"] = counters_json(level.counters());
+  if (arguments.cells_too) counters["pairs_of_cells"] = counters_json(maker.cell_counters());
+  if (write_json(common, "pvs", level.scene(),
+                 result_json(arguments, level, division, table, facts, maker.blocks_kept()), std::move(counters),
+                 {{"cells", cells_seconds}, {"pvs", seconds}, {"pairs_of_cells", maker.cell_seconds()}}))
+    return exit;
+
+  // 4. For people.
+  scene_rows(level.scene());
+  row("cells", fmt::format("{} of {} are asked about", table.rows.size(), level.counters().cells));
+  print(maker, facts, arguments.cells_too);
   if (arguments.resume)
-    row("resumed", fmt::format("{} of {} blocks were there{}", maker.blocks_kept(), table_blocks,
-                               undecided + cells_undecided == 0
-                                   ? ""
-                                   : "; those that are decided are kept, and the same command goes on from there"));
+    row("resumed",
+        fmt::format(
+            "{} of {} blocks were there{}", maker.blocks_kept(), table_blocks,
+            facts.is_decided() ? "" : "; those that are decided are kept, and the same command goes on from there"));
   for (const Cell_id cell : arguments.show) {
     row(fmt::format("cell {}", cell), fmt::format("sees {}", fmt::join(table.row_of(cell)->visible, " ")));
     if (arguments.cells_too) row("", fmt::format("and cells {}", fmt::join(table.row_of(cell)->cells, " ")));

@@ -8,7 +8,6 @@
 #include <sightline/io/visibility_table.h>
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,8 +23,5 @@ struct Pvs_arguments {
   Division_arguments division;
   std::vector<std::uint32_t> show;
 };
-
-/// Whether the budget is over, for what then leaves the rest undecided; empty: there is none.
-std::function<bool()> out_of_time(const Common& common, const Stopwatch& watch);
 
 }  // namespace sightline::app

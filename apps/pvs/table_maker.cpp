@@ -13,8 +13,8 @@ namespace sightline::app {
 namespace fs = std::filesystem;
 
 Table_maker::Table_maker(const Pvs_arguments& arguments, const Division& division, const Polygon_soup& soup,
-                         const Level_cells& level, const Stopwatch& watch)
-    : arguments_(arguments), level_(level), watch_(watch), faces_(soup.face_count()), search_(level, options()) {
+                         const Level_cells& level, const Time_limit& limit)
+    : arguments_(arguments), level_(level), limit_(limit), faces_(soup.face_count()), search_(level, options()) {
   question_ =
       fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), division.candidates, division.seed,
                   arguments.outside ? ", outside" : "", division.question, arguments.cells_too ? ", cells too" : "");
@@ -109,7 +109,7 @@ Pvs_options Table_maker::options() {
   options.progress = [this](std::size_t done, std::size_t all) {
     progress_((block_count_ - blocks_left_) * all + done, block_count_ * all);
   };
-  options.search.out_of_time = out_of_time(arguments_.common, watch_);
+  options.search.out_of_time = limit_.end();
   return options;
 }
 

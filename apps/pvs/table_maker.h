@@ -17,9 +17,9 @@ namespace sightline::app {
 /// The table of a level that a command line asks for, and its parts.
 class Table_maker {
  public:
-  /// Pre: `watch` runs since the question was asked, and outlives the maker, as the other things do.
+  /// Pre: `limit` began when the question was asked; the other things outlive the maker.
   Table_maker(const Pvs_arguments& arguments, const Division& division, const Polygon_soup& soup,
-              const Level_cells& level, const Stopwatch& watch);
+              const Level_cells& level, const Time_limit& limit);
 
   /// Of all faces, and lower cells of pairs, whose id is shard modulo shards.
   Visibility_table make(const Shard& own) { return counted(part(own)); }
@@ -65,7 +65,7 @@ class Table_maker {
 
   const Pvs_arguments& arguments_;
   const Level_cells& level_;
-  const Stopwatch& watch_;
+  const Time_limit limit_;
   Progress progress_{"looking"};
   std::size_t faces_;
   Pvs_search search_;

@@ -156,10 +156,9 @@ std::optional<report::Example> example_of(const report::Row& row, const Judge_ca
   scene.eye = asked.query.eye;
   scene.source = asked.query.source;
   if (!fails(scene)) return std::nullopt;
-  const Stopwatch watch;
   harness::Reduce_options reduce;
   reduce.most_tests = options.tests;
-  reduce.out_of_time = [&] { return watch.seconds() > options.seconds; };
+  reduce.out_of_time = Time_limit(options.seconds).end();
   const harness::Reduced reduced = harness::reduce(scene, fails, reduce);
   const std::shared_ptr<const Judge_case> left = case_of_smaller(reduced.scene);
 

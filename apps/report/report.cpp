@@ -1,344 +1,20 @@
 // sightline report: speed against error, every question to every method and kernel, on families and real scenes.
 
+#include "answers.h"
 #include "examples.h"
 
-#include "../judge/cases.h"
-#include "../support/journal.h"
-#include "../support/shard.h"
-
-#include <sightline/harness/generate/families.h>
 #include <sightline/harness/report/page.h>
 #include <sightline/harness/report/picture.h>
-#include <sightline/harness/report/report.h>
-#include <sightline/io/file.h>
-#include <sightline/io/read.h>
 
 #include <filesystem>
 #include <iostream>
 #include <map>
-#include <set>
 
 namespace sightline::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Report_arguments {
-  std::vector<std::string> scenes;
-  std::vector<std::string> questions, families, distances, programs, parts;
-  std::vector<std::size_t> sizes;
-  std::string ask, json, html, svg, keep, shard;
-  bool quick = false, resume = false, quiet = false;  // quiet: an output takes standard output
-  std::uint64_t cases = 0, seed = 1, memory = 1024, reduce = 0;
-  double limit = 0, budget = 0;
-  std::optional<Command> command;
-};
-
-// ---- What is asked
-
-/// The distance of scenes of files.
-constexpr const char* as_given = "as given";
-
-/// What is chosen where an option is not given.
-struct Usual {
-  std::vector<std::string> families, distances;
-  std::vector<std::size_t> sizes;
-  std::uint64_t cases, reduce;
-  double limit;
-};
-Usual usual(bool quick) {
-  if (quick)
-    return {{"hinged", "boxes", "cyclic", "edge_on", "leaves", "touching_faces", "triangles_between_squares",
-             "city_rotated", "convex_sphere"},
-            {"0", "1", "-1", "1000", "-1000", "far"},
-            {0, 20},
-            1,
-            60,
-            2};
-  std::vector<std::string> all;
-  for (const generate::Family& family : generate::families())
-    if (!family.holes) all.push_back(family.name);
-  return {all, {"0", "1", "-1", "1000", "-1000", "far"}, {0, 50, 200}, 3, 1000, 10};
-}
-
-/// A row's place: a question, and where its cases come from.
-struct Unit {
-  std::size_t number;
-  const Report_question* question;
-  std::size_t size;
-  Case_group group;
-  bool is_of_a_folder = false;  ///< a scene that nobody named: what cannot be read is passed over
-};
-
-std::size_t faces_of(const generate::Family& family, std::size_t size) {
-  try {
-    return family.make({1, size, 0, {0, 0, 0}, 1}).soup.face_count();
-  } catch (const std::invalid_argument&) {
-    return 0;
-  }
-}
-/// The family's own size with which it has so many faces, or somewhat more; nothing where it has no such scene.
-std::optional<std::size_t> size_with(const generate::Family& family, std::size_t faces) {
-  if (faces == 0) return family.small_size;
-  constexpr std::size_t most = 1 << 20;
-  std::size_t low = 0, high = 1;  // with low it has fewer
-  while (faces_of(family, high) < faces) {
-    low = high;
-    high *= 2;
-    if (high > most) return std::nullopt;
-  }
-  while (high - low > 1) {
-    const std::size_t middle = (low + high) / 2;
-    (faces_of(family, middle) < faces ? low : high) = middle;
-  }
-  if (faces_of(family, high) > 3 * faces) return std::nullopt;
-  return high;
-}
-
-std::vector<Unit> units_of(const Report_arguments& a) {
-  std::vector<Unit> units;
-  std::map<std::pair<std::string, std::size_t>, std::optional<std::size_t>> sizes;
-  for (const std::string& name : a.questions) {
-    const Report_question& question = report_question(name);
-    const Case_options options{case_question(name), false, true};
-    const auto add = [&](std::size_t size, Case_group group, bool is_of_a_folder = false) {
-      units.push_back({units.size(), &question, size, std::move(group), is_of_a_folder});
-    };
-    for (const std::string& family : a.families)
-      for (const std::string& distance : a.distances)
-        for (const std::size_t faces : a.sizes) {
-          const auto [found, is_new] = sizes.try_emplace({family, faces});
-          if (is_new) {
-            try {
-              found->second = size_with(generate::family(family), faces);
-            } catch (const std::invalid_argument& error) {
-              throw Usage_error(std::string("--families: ") + error.what());
-            }
-          }
-          if (!found->second || (a.quick && faces > question.quick_size)) continue;
-          Case_choice choice;
-          choice.families = {family};
-          choice.ulps = {distance};
-          choice.size = *found->second;
-          add(faces, groups_of(choice, options).at(0));
-        }
-    for (const std::string& scene : a.scenes) {
-      Case_choice choice;
-      choice.scenes = scene;
-      choice.ask = a.ask;
-      for (Case_group& group : groups_of(choice, options)) {
-        group.distance = as_given;
-        add(0, std::move(group), fs::is_directory(scene));
-      }
-    }
-  }
-  return units;
-}
-
-Json asked_json(const Report_arguments& a) {
-  return {{"questions", a.questions}, {"families", a.families}, {"distances", a.distances}, {"sizes", a.sizes},
-          {"scenes", a.scenes},       {"ask", a.ask},           {"programs", a.programs},   {"cases", a.cases},
-          {"seed", a.seed},           {"limit", a.limit},       {"memory", a.memory},       {"quick", a.quick}};
-}
-
-/// A name of what each file holds that is asked about, which is read once, whatever is asked of it; of one that cannot
-/// be read, what is said of it where it is asked about.
-Json contents_json(const Report_arguments& a, const std::vector<Unit>& units) {
-  Json contents = Json::object();
-  if (!a.ask.empty()) contents[a.ask] = content_hash(a.ask);
-  for (const Unit& unit : units) {
-    const std::string& file = unit.group.file;
-    if (file.empty() || contents.contains(file)) continue;
-    try {
-      contents[file] = identity(unit.group);
-    } catch (const Input_error& error) {
-      contents[file] = error.what();
-    }
-  }
-  return contents;
-}
-
-// ---- Asking
-
-/// Rows of a unit, and what was not asked.
-struct Answered {
-  std::vector<report::Row> rows;
-  Json not_asked = Json::object();
-};
-
-/// The rows of one unit while its cases are asked.
-class Table {
- public:
-  explicit Table(const Unit& unit, std::uint64_t seed) : unit_(unit), seed_(seed) {}
-
-  void add(const Json& name, const Verdict& v, std::uint64_t seed, std::size_t faces) {
-    if (v.kind == Verdict::not_asked) return;
-    const report::Contender who{unit_.question->name, method_of(name), name["kernel"].get<std::string>()};
-    auto found = std::find_if(lines_.begin(), lines_.end(), [&](const Line& line) { return line.row.who == who; });
-    if (found == lines_.end()) {
-      found = lines_.insert(lines_.end(), Line());
-      report::Row& row = found->row;
-      row.unit = unit_.number;
-      row.who = who;
-      row.family = unit_.group.family;
-      row.distance = unit_.group.distance;
-      row.size = unit_.size;
-      row.seed = seed_;
-    }
-    report::Row& row = found->row;
-    ++row.cases;
-    row.faces += static_cast<double>(faces);
-    row.wrong += v.kind == Verdict::wrong;
-    row.abstained += v.kind == Verdict::abstained;
-    row.crashed += v.kind == Verdict::crashed;
-    row.stopped += v.kind == Verdict::stopped;
-    row.broken += v.broken;
-    if (v.kind == Verdict::crashed || v.kind == Verdict::stopped) return;
-    found->seconds.push_back(v.seconds);
-    row.worst_seconds = std::max(row.worst_seconds, v.seconds);
-    row.peak_bytes = std::max(row.peak_bytes, v.peak_bytes);
-    row.error += v.error;
-    row.worst_error = std::max(row.worst_error, v.error);
-    if (v.kind == Verdict::wrong && (!row.smallest || faces < row.smallest->faces))
-      row.smallest = report::Wrong_case{faces, seed, v.error};
-  }
-
-  std::vector<report::Row> rows() {
-    std::vector<report::Row> rows;
-    for (Line& line : lines_) {
-      report::Row& row = rows.emplace_back(line.row);
-      row.faces /= static_cast<double>(row.cases);
-      if (line.seconds.empty()) continue;
-      row.error /= static_cast<double>(line.seconds.size());
-      std::sort(line.seconds.begin(), line.seconds.end());
-      row.seconds = line.seconds[line.seconds.size() / 2];
-    }
-    return rows;
-  }
-
- private:
-  struct Line {
-    report::Row row;
-    std::vector<double> seconds;
-  };
-  const Unit& unit_;
-  std::uint64_t seed_;
-  std::vector<Line> lines_;
-};
-
-Answered answered(const Unit& unit, const Report_arguments& a, const Report_effort& effort, const Report_limits& limits,
-                  const std::vector<Report_program>& programs) {
-  Answered answers;
-  Table table(unit, a.seed);
-  const std::string scene = unit.group.distance == as_given ? unit.group.family + ": " : "";
-  const auto leave_out = [&](const std::string& reason) {
-    const std::string why = scene + reason;
-    answers.not_asked[why] = answers.not_asked.value(why, std::size_t{0}) + 1;
-  };
-  for (std::uint64_t seed = a.seed; seed < a.seed + a.cases; ++seed) {
-    std::shared_ptr<const Judge_case> asked;
-    try {
-      asked = std::make_shared<const Judge_case>(unit.group.make(seed));
-    } catch (const Input_error& error) {
-      if (!unit.is_of_a_folder) throw;
-      leave_out(error.what());
-      continue;
-    }
-    if (!asked->not_asked.empty()) {
-      leave_out(asked->not_asked);
-      continue;
-    }
-    const std::size_t faces = asked->soup.face_count();
-    try {
-      Compare_arguments arguments = unit.question->arguments(*asked, effort);
-      arguments.common.seed = seed;
-      arguments.common.threads = 1;
-      arguments.common.budget = limits.seconds;
-      const std::unique_ptr<Trial> trial = unit.question->trial(arguments, asked->soup);
-      for (const Contestant& contestant : trial->contestants)
-        table.add(contestant.name, verdict_of(*unit.question, *trial, contestant, faces, limits), seed, faces);
-      for (const Report_program& program : programs) {
-        if (program.question != unit.question->name) continue;
-        const Contestant contestant = contestant_of(program, asked, seed);
-        table.add(contestant.name, verdict_of(*unit.question, *trial, contestant, faces, limits), seed, faces);
-      }
-    } catch (const Out_of_budget&) {
-      leave_out("the truth takes longer than --limit");
-    } catch (const Usage_error& error) {
-      if (std::string_view(error.what()).starts_with("--program")) throw;
-      leave_out(error.what());
-    } catch (const std::invalid_argument& error) {
-      leave_out(error.what());
-    }
-  }
-  answers.rows = table.rows();
-  return answers;
-}
-
-// ---- What is done already
-
-/// What is done, in a file beside --json, a unit a line, until the report is written whole.
-class Kept_units {
- public:
-  Kept_units(const Report_arguments& a, const Json& asked, const Shard& own,
-             const std::vector<Report_program>& programs)
-      : journal_(a.json + ".units", resumed_head("report", asked_by_option(a, asked, own, programs))) {}
-
-  /// What was answered of these units before, where their scenes' files are what they were, as contents_json() has
-  /// them; and goes on behind it.
-  std::map<std::size_t, Answered> begin(const std::vector<Unit>& units, const Json& contents) {
-    for (const Unit& unit : units)
-      identities_.push_back(
-          unit.question->name + ' ' +
-          (unit.group.file.empty() ? identity(unit.group) : contents.at(unit.group.file).get<std::string>()));
-    std::map<std::size_t, Answered> all;
-    for (const nlohmann::json& line : journal_.lines()) try {
-        const auto number = line.at("unit").get<std::size_t>();
-        if (number >= units.size()) continue;
-        if (line.at("of") != identities_[number]) {
-          changed_.insert(number);
-          continue;
-        }
-        Answered answers;
-        for (const nlohmann::json& row : line.at("rows")) answers.rows.push_back(report::row_from_json(row));
-        answers.not_asked = line.at("not_asked");
-        all[number] = std::move(answers);
-      } catch (const std::exception&) {
-        continue;  // no line of ours: its unit is asked again
-      }
-    for (const auto& [number, answers] : all) changed_.erase(number);
-    journal_.begin();
-    return all;
-  }
-  void add(std::size_t unit, const Answered& answers) {
-    Json rows = Json::array();
-    for (const report::Row& row : answers.rows) rows.push_back(report::to_json(row));
-    journal_.add(
-        {{"unit", unit}, {"of", identities_[unit]}, {"rows", std::move(rows)}, {"not_asked", answers.not_asked}});
-  }
-  void remove() { journal_.remove(); }
-  std::size_t changed() const { return changed_.size(); }  ///< units that were answered of another scene
-
- private:
-  static Json asked_by_option(const Report_arguments& a, const Json& asked, const Shard& own,
-                              const std::vector<Report_program>& programs) {
-    Json named = Json::object();
-    for (const auto& [option, value] : asked.items()) named[option == "scenes" ? "SCENES" : "--" + option] = value;
-    if (!a.ask.empty()) named["--ask"] = a.ask + ' ' + content_hash(a.ask);
-    Json files = Json::object();
-    for (const Report_program& program : programs) files.update(hashes_of_words(split_words(program.command)));
-    named["--program's files"] = std::move(files);
-    named["--shard"] = fmt::format("{}/{}", own.shard, own.shards);
-    return named;
-  }
-
-  Journal journal_;
-  std::vector<std::string> identities_;
-  std::set<std::size_t> changed_;
-};
-
-// ---- Output
 
 std::string share_text(std::size_t part, std::size_t all) {
   return part == 0 ? "-" : fmt::format("{:.1f}%", 100.0 * static_cast<double>(part) / static_cast<double>(all));
@@ -409,24 +85,92 @@ Report_arguments completed(Report_arguments a) {
   return a;
 }
 
+/// --merge asks nothing.
+void check_merge(const Report_arguments& given) {
+  if (!given.scenes.empty() || given.resume || !given.shard.empty())
+    throw Usage_error("--merge asks nothing: leave out scenes, --shard and --resume");
+  for (const auto& [option, is_given] : {std::pair("--questions", !given.questions.empty()),
+                                         {"--families", !given.families.empty()},
+                                         {"--distances", !given.distances.empty()},
+                                         {"--sizes", !given.sizes.empty()},
+                                         {"--program", !given.programs.empty()},
+                                         {"--ask", !given.ask.empty()},
+                                         {"--cases", given.cases != 0},
+                                         {"--limit", given.limit != 0},
+                                         {"--budget", given.budget != 0},
+                                         {"--reduce", given.reduce != 0},
+                                         {"--quick", given.quick}})
+    if (is_given) throw Usage_error(std::string("--merge asks nothing: leave out ") + option);
+}
+
+/// Programs of users. Errors: Usage_error where nobody asks their question.
+std::vector<Report_program> programs_of(const Report_arguments& a, const Report_limits& limits) {
+  std::vector<Report_program> programs;
+  for (const std::string& program : a.programs) {
+    programs.push_back(report_program(program, limits));
+    if (std::find(a.questions.begin(), a.questions.end(), programs.back().question) == a.questions.end())
+      throw Usage_error("--program " + program + ": --questions leaves its question out");
+  }
+  return programs;
+}
+
+/// Asks every unit of the shard that is not done. Returns how many the budget leaves open.
+std::size_t ask_units(const std::vector<Unit>& units, const Report_asking& asking, const Time_limit& time,
+                      Kept_units* kept, std::map<std::size_t, Answered>& done) {
+  std::size_t open = 0;
+  Progress progress("asking");
+  bool is_first = true;  // which is asked whatever the budget, so that to try again comes to an end
+  for (const Unit& unit : units) {
+    progress(unit.number, units.size());
+    if (unit.number % asking.own.shards != asking.own.shard || done.count(unit.number) > 0) continue;
+    if (time.is_over() && !is_first) {
+      ++open;
+      continue;
+    }
+    is_first = false;
+    const Answered& answers = done[unit.number] = answered(unit, asking);
+    if (kept != nullptr) kept->add(unit.number, answers);
+  }
+  return open;
+}
+
+/// All that was answered, in the order of units.
+report::Report report_of(const Report_arguments& a, const Shard& own, std::size_t units,
+                         const std::map<std::size_t, Answered>& done) {
+  report::Report report;
+  report.asked = asked_json(a);
+  report.shard = own.shard;
+  report.shards = own.shards;
+  report.units = units;
+  for (const std::string& name : a.questions) report.questions.push_back({name, report_question(name).error_means});
+  for (const auto& [number, answers] : done) {
+    report.rows.insert(report.rows.end(), answers.rows.begin(), answers.rows.end());
+    for (const auto& [why, count] : answers.not_asked.items())
+      report.not_asked[why] = report.not_asked.value(why, std::size_t{0}) + count.get<std::size_t>();
+  }
+  return report;
+}
+
+/// The smallest scenes that show errors, made smaller.
+std::vector<report::Example> examples_of(const std::vector<report::Row>& rows, const std::vector<Unit>& units,
+                                         const Example_options& options) {
+  std::vector<report::Example> examples;
+  Progress progress("reducing");
+  const std::vector<const report::Row*> wrong = report::smallest_wrong(rows);
+  for (std::size_t k = 0; k < wrong.size(); ++k) {
+    progress(k, wrong.size());
+    const report::Row& row = *wrong[k];
+    if (const auto example = example_of(row, units[row.unit].group.make(row.smallest->seed), options))
+      examples.push_back(*example);
+  }
+  return examples;
+}
+
 Exit run(const Report_arguments& given) {
   if (given.json.empty() && given.html.empty() && given.svg.empty())
     throw Usage_error("say where the report goes: --html FILE, --json FILE or --svg FILE");
   if (!given.parts.empty()) {
-    if (!given.scenes.empty() || given.resume || !given.shard.empty())
-      throw Usage_error("--merge asks nothing: leave out scenes, --shard and --resume");
-    for (const auto& [option, is_given] : {std::pair("--questions", !given.questions.empty()),
-                                           {"--families", !given.families.empty()},
-                                           {"--distances", !given.distances.empty()},
-                                           {"--sizes", !given.sizes.empty()},
-                                           {"--program", !given.programs.empty()},
-                                           {"--ask", !given.ask.empty()},
-                                           {"--cases", given.cases != 0},
-                                           {"--limit", given.limit != 0},
-                                           {"--budget", given.budget != 0},
-                                           {"--reduce", given.reduce != 0},
-                                           {"--quick", given.quick}})
-      if (is_given) throw Usage_error(std::string("--merge asks nothing: leave out ") + option);
+    check_merge(given);
     return merge(given);
   }
   if (given.resume && (given.json.empty() || given.json == "-"))
@@ -434,87 +178,46 @@ Exit run(const Report_arguments& given) {
   if (!given.ask.empty() && (given.scenes.empty() || given.questions.size() != 1))
     throw Usage_error("--ask wants a scene, and its one question in --questions");
   const Report_arguments a = completed(given);
-  const Report_limits limits{a.limit, a.memory << 20};
-  const Report_effort effort = report_effort(a.quick);
-  const Shard own = shard_of(a.shard);
-  const auto [shard, shards] = own;
-  std::vector<Report_program> programs;
-  for (const std::string& program : a.programs) {
-    programs.push_back(report_program(program, limits));
-    if (std::find(a.questions.begin(), a.questions.end(), programs.back().question) == a.questions.end())
-      throw Usage_error("--program " + program + ": --questions leaves its question out");
-  }
+  Report_asking asking{a, shard_of(a.shard), report_effort(a.quick), {a.limit, a.memory << 20}, {}};
+  asking.programs = programs_of(a, asking.limits);
 
   // 1. Every unit of this shard that is not done.
   const Stopwatch watch;
+  const Time_limit time(a.budget);
   const std::vector<Unit> units = units_of(a);
-  std::optional<Kept_units> kept_units;
-  std::map<std::size_t, Answered> done;
   const Json contents = contents_json(a, units);
-  if (a.resume) done = kept_units.emplace(a, asked_json(a), own, programs).begin(units, contents);
-  const std::size_t kept = done.size();
-  report::Report report;
-  {
-    Progress progress("asking");
-    bool is_first = true;  // which is asked whatever the budget, so that to try again comes to an end
-    for (const Unit& unit : units) {
-      progress(unit.number, units.size());
-      if (unit.number % shards != shard || done.count(unit.number) > 0) continue;
-      if (a.budget > 0 && watch.seconds() > a.budget && !is_first) {
-        ++report.open;
-        continue;
-      }
-      is_first = false;
-      const Answered& answers = done[unit.number] = answered(unit, a, effort, limits, programs);
-      if (kept_units) kept_units->add(unit.number, answers);
-    }
-  }
-  report.asked = asked_json(a);
+  std::optional<Kept_units> kept;
+  std::map<std::size_t, Answered> done;
+  if (a.resume) done = kept.emplace(asking).begin(units, contents);
+  const std::size_t were_there = done.size();
+  const std::size_t open = ask_units(units, asking, time, kept ? &*kept : nullptr, done);
+  report::Report report = report_of(a, asking.own, units.size(), done);
   report.contents = contents;
-  report.shard = shard;
-  report.shards = shards;
-  report.units = units.size();
-  for (const std::string& name : a.questions) report.questions.push_back({name, report_question(name).error_means});
-  bool broken = false;
-  for (const auto& [number, answers] : done) {
-    for (const report::Row& row : answers.rows) {
-      report.rows.push_back(row);
-      broken = broken || row.broken > 0;
-    }
-    for (const auto& [why, count] : answers.not_asked.items())
-      report.not_asked[why] = report.not_asked.value(why, std::size_t{0}) + count.get<std::size_t>();
-  }
-  if (report.open > 0) {
+  report.open = open;
+  if (open > 0) {
     std::cerr << fmt::format(
-        "sightline: undecided: --budget ran out, {} of {} units are open; {}\n", report.open, done.size() + report.open,
+        "sightline: undecided: --budget ran out, {} of {} units are open; {}\n", open, done.size() + open,
         a.resume ? "the same command goes on from there" : "with --resume the same command would go on from there");
     write(a, report);
     return Exit::undecided;
   }
 
   // 2. The smallest scenes that show errors.
-  const Example_options options{effort, limits, a.reduce > 0 ? a.reduce : usual(a.quick).reduce, 60, programs};
-  {
-    Progress progress("reducing");
-    const std::vector<const report::Row*> wrong = report::smallest_wrong(report.rows);
-    for (std::size_t k = 0; k < wrong.size(); ++k) {
-      progress(k, wrong.size());
-      if (const auto example =
-              example_of(*wrong[k], units[wrong[k]->unit].group.make(wrong[k]->smallest->seed), options))
-        report.examples.push_back(*example);
-    }
-  }
+  const std::uint64_t tests = a.reduce > 0 ? a.reduce : usual(a.quick).reduce;
+  report.examples = examples_of(report.rows, units, {asking.effort, asking.limits, tests, 60, asking.programs});
   report.seconds = watch.seconds();
   write(a, report);
-  if (kept_units) kept_units->remove();
-  if (kept_units && !a.quiet)
+  if (kept) kept->remove();
+  if (kept && !a.quiet)
     row("resumed",
-        fmt::format("{} of {} units were there{}", kept, done.size(),
-                    kept_units->changed() == 0
+        fmt::format("{} of {} units were there{}", were_there, done.size(),
+                    kept->changed() == 0
                         ? ""
                         : fmt::format("; {} more were of files that have changed since, and were asked again",
-                                      kept_units->changed())));
+                                      kept->changed())));
   if (!a.quiet) row("seconds", fmt::format("{:.1f}", report.seconds));
+  const bool broken =
+      std::any_of(report.rows.begin(), report.rows.end(), [](const report::Row& row) { return row.broken > 0; });
   return broken ? Exit::disagreement : Exit::done;
 }
 

@@ -82,9 +82,8 @@ void Common::add_to(Command of) {
 
 std::function<void(std::size_t, std::size_t)> Common::within_budget(
     std::function<void(std::size_t, std::size_t)> report) const {
-  return [report = std::move(report), limit = budget, watch = Stopwatch()](std::size_t done, std::size_t all) {
-    if (limit > 0 && watch.seconds() > limit)
-      throw Out_of_budget(fmt::format("undecided: the budget of {} s ran out", limit));
+  return [report = std::move(report), limit = Time_limit(budget)](std::size_t done, std::size_t all) {
+    if (limit.is_over()) throw Out_of_budget(fmt::format("undecided: the budget of {} s ran out", limit.seconds()));
     report(done, all);
   };
 }

@@ -8,12 +8,12 @@
 #include <sightline/kernel/counters.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/sign.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <atomic>
-#include <chrono>
 
 namespace sightline::app {
 
@@ -39,7 +39,7 @@ struct Common {
   bool flip = false;  ///< each loop of the scene backwards
   int threads = 0;
   std::uint64_t seed = 1;
-  double budget = 0;  ///< seconds; 0: none
+  double budget = 0;  ///< seconds; 0: no limit
 
   std::optional<Command> command;  ///< whose options these are
 
@@ -57,14 +57,6 @@ Exact_point parse_point(const std::string& text, const std::string& option);
 
 /// The eye that --eye names, or, where it is empty, a place outside the scene's box from which all of it is seen.
 Exact_point eye_of(const std::string& text, const Scene& scene);
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// A bar on standard error, if that is a terminal and the work lasts; nothing otherwise. Thread-safe.
 class Progress {

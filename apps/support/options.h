@@ -30,11 +30,6 @@ enum class Exit : int {
   undecided = 4,  ///< the budget ran out
 };
 
-/// The budget ran out: exit code 4.
-struct Out_of_budget : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// A usage error that no check of an option can see: exit code 2.
 struct Usage_error : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -110,6 +110,8 @@ Path path_of(const Path_arguments& arguments, const Scene& scene) {
 
 // ---- Pictures
 
+namespace {
+
 /// Points on a picture, in units of their own, and how deep they are; and the part of the picture that shows them.
 struct Projection {
   std::vector<Flat_point> flat;
@@ -129,8 +131,8 @@ struct Projection {
 
 /// The points as seen from a viewpoint; the part that shows them is all of them where they are in front of it. `points`
 /// and `eye` are from the scene's centre, its longest side two long.
-static Projection projected(const std::vector<Direction3>& points, const Viewpoint& viewpoint, const Direction3& eye,
-                            const Scene& scene) {
+Projection projection_of(const std::vector<Direction3>& points, const Viewpoint& viewpoint, const Direction3& eye,
+                         const Scene& scene) {
   const bool parallel = viewpoint.at_infinity;
   View view;
   view.eye = viewpoint.at;
@@ -160,7 +162,7 @@ static Projection projected(const std::vector<Direction3>& points, const Viewpoi
 }
 
 /// The faces of nodes that are on-view in one frame and not in another.
-static std::set<Face_id> faces_of(const Face_graph& graph, const std::vector<bool>& on, const std::vector<bool>& off) {
+std::set<Face_id> faces_of(const Face_graph& graph, const std::vector<bool>& on, const std::vector<bool>& off) {
   std::set<Face_id> faces;
   const std::vector<Piece>& pieces = graph.scene().pieces();
   for (std::uint32_t i = 0; i < pieces.size(); ++i)
@@ -169,107 +171,152 @@ static std::set<Face_id> faces_of(const Face_graph& graph, const std::vector<boo
 }
 
 /// A colour as it is in the light, or darker, by a shade from -1 to 1.
-static std::string shaded(const std::array<int, 3>& colour, double shade) {
+std::string shaded(const std::array<int, 3>& colour, double shade) {
   const auto part = [&](int x) { return static_cast<int>(std::lround(x * (0.85 + 0.15 * shade))); };
   return fmt::format("#{:02x}{:02x}{:02x}", part(colour[0]), part(colour[1]), part(colour[2]));
 }
 
-std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines, const Canvas_arguments& canvas,
-                    bool lit) {
-  // 1. All frames, each as high as the highest needs.
-  const Scene& scene = graph.scene();
-  const bool empty = scene.counters().faces == 0;
-  std::vector<Direction3> points;
-  std::vector<Projection> frames;
-  if (!empty) {
-    const auto box = scene.box();
-    Exact_point centre;
-    Rational half = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      centre[k] = (box[0][k] + box[1][k]) / 2;
-      half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
-    }
-    const auto place = [&](const Exact_point& p) {
-      return Direction3{nearest_double(Rational((p[0] - centre[0]) / half)),
-                        nearest_double(Rational((p[1] - centre[1]) / half)),
-                        nearest_double(Rational((p[2] - centre[2]) / half))};
-    };
-    for (std::uint32_t p = 0; p < scene.points().size(); ++p) points.push_back(place(scene.position(p)));
-    for (const Outline& outline : outlines)
-      frames.push_back(
-          projected(points, outline.view, outline.view.at_infinity ? Direction3{} : place(outline.view.at), scene));
+/// All points of a scene as each of some frames sees them: none where the scene has no faces.
+std::vector<Projection> projections_of(const Scene& scene, const std::vector<Outline>& outlines) {
+  if (scene.counters().faces == 0) return {};
+  const auto box = scene.box();
+  Exact_point centre;
+  Rational half = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    centre[k] = (box[0][k] + box[1][k]) / 2;
+    half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
   }
-  constexpr double title = 38, legend = 28;
-  const std::size_t columns = std::min<std::size_t>(4, std::max<std::size_t>(1, outlines.size())),
-                    rows = std::max<std::size_t>(1, (outlines.size() + columns - 1) / columns);
-  const auto whole = [&](double wide) {  // the picture's size, of frames so wide
+  const auto place = [&](const Exact_point& p) {
+    return Direction3{nearest_double(Rational((p[0] - centre[0]) / half)),
+                      nearest_double(Rational((p[1] - centre[1]) / half)),
+                      nearest_double(Rational((p[2] - centre[2]) / half))};
+  };
+  std::vector<Direction3> points;
+  for (std::uint32_t p = 0; p < scene.points().size(); ++p) points.push_back(place(scene.position(p)));
+  std::vector<Projection> frames;
+  for (const Outline& outline : outlines)
+    frames.push_back(
+        projection_of(points, outline.view, outline.view.at_infinity ? Direction3{} : place(outline.view.at), scene));
+  return frames;
+}
+
+/// Frames beside each other: up to four in a row.
+struct Strip {
+  static constexpr double title = 38, legend = 28;  // above each frame, and beneath all
+  std::size_t columns, rows;
+
+  explicit Strip(std::size_t frames)
+      : columns(std::min<std::size_t>(4, std::max<std::size_t>(1, frames))),
+        rows(std::max<std::size_t>(1, (frames + columns - 1) / columns)) {}
+  /// The picture's size, of frames so wide, each as high as the highest needs.
+  std::array<int, 2> size(const std::vector<Projection>& frames, double wide) const {
     double steepest = 0.3;
     for (const Projection& frame : frames) steepest = std::max(steepest, frame.high() / frame.wide());
-    return std::array<int, 2>{
-        static_cast<int>(static_cast<double>(columns) * wide),
-        static_cast<int>(static_cast<double>(rows) * (std::min(1.2, steepest) * wide + title) + legend)};
-  };
-  const std::array<int, 2> size = canvas.size_or(whole(300));
-  const double wide = static_cast<double>(size[0]) / static_cast<double>(columns),
-               high = std::max(1.0, (size[1] - legend) / static_cast<double>(rows) - title);
+    return {static_cast<int>(static_cast<double>(columns) * wide),
+            static_cast<int>(static_cast<double>(rows) * (std::min(1.2, steepest) * wide + title) + legend)};
+  }
+};
+
+/// A frame in its place in the picture.
+struct Placed_frame {
+  Projection projection;
+  double left, top, wide, high;
+
+  Placed_frame(Projection fitted, const std::array<double, 2>& size, std::size_t column, std::size_t row)
+      : projection(std::move(fitted)),
+        left(static_cast<double>(column) * size[0]),
+        top(static_cast<double>(row) * (size[1] + Strip::title) + Strip::title),
+        wide(size[0]),
+        high(size[1]) {
+    projection.fit(wide, high);
+  }
+  Flat_point at(std::uint32_t p) const { return {left + projection.flat[p][0], top + projection.flat[p][1]}; }
+  bool shows(std::uint32_t p) const {
+    const Flat_point& flat = projection.flat[p];
+    return projection.depth[p] > 1e-3 && flat[0] >= 0 && flat[0] <= wide && flat[1] >= 0 && flat[1] <= high;
+  }
+};
+
+/// The pieces that are on-view and shown wholly, the far ones first.
+std::vector<std::uint32_t> painters_order(const Face_graph& graph, const std::vector<bool>& on_view,
+                                          const Placed_frame& frame) {
+  const Scene& scene = graph.scene();
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+    const auto corners = scene.corners(scene.pieces()[i]);
+    if (!on_view[graph.node(i)] ||
+        !std::all_of(corners.begin(), corners.end(), [&](const Piece_corner& c) { return frame.shows(c.point); }))
+      continue;
+    double sum = 0;
+    for (const Piece_corner& corner : corners) sum += frame.projection.depth[corner.point];
+    order.emplace_back(-sum / static_cast<double>(corners.size()), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::uint32_t> pieces;
+  for (const auto& [far, i] : order) pieces.push_back(i);
+  return pieces;
+}
+
+/// On-view faces, those green that `before` has off-view.
+void draw_faces(Svg& svg, const Face_graph& graph, const Outline& outline, const std::vector<bool>& before,
+                const Placed_frame& frame, bool lit) {
+  const Scene& scene = graph.scene();
+  std::map<Face_id, std::size_t> polygons;  // of each face, so far
+  for (const std::uint32_t i : painters_order(graph, outline.on_view, frame)) {
+    const Face_id face = scene.pieces()[i].face;
+    const bool is_born = !before[graph.node(i)];
+    std::vector<Flat_point> polygon;
+    std::vector<Exact_point> corners;
+    for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) {
+      polygon.push_back(frame.at(corner.point));
+      if (lit) corners.push_back(scene.position(corner.point));
+    }
+    const std::array<int, 3> colour = is_born ? std::array{0xa9, 0xd6, 0xa0} : std::array{0xe3, 0xe8, 0xee};
+    svg.polygon(std::move(polygon), shaded(colour, lit ? shade_of(corners) : 1), is_born ? "#5b9e6f" : "#9aa7b5",
+                scene.pieces().size() > 3000 ? 0.15 : 0.4,
+                fmt::format("frame-{}-face-{}-{}", outline.number, face, ++polygons[face]),
+                fmt::format("face {}{}", face, is_born ? ", became on-view" : ""));
+  }
+}
+
+void draw_cut_set(Svg& svg, const Face_graph& graph, const std::vector<bool>& on_view, const Placed_frame& frame) {
+  for (const Face_graph::Edge& edge : graph.edges())
+    if (on_view[edge.first] != on_view[edge.second] && frame.shows(edge.from) && frame.shows(edge.to))
+      svg.line(frame.at(edge.from), frame.at(edge.to), "#c0392b", 1.2);
+}
+
+/// What changed since the frame before, in words; null: it is the first.
+std::string change_words(const Face_graph& graph, const Outline& outline, const Outline* before) {
+  if (before == nullptr) return "the first frame";
+  return fmt::format("since {}: {} became on-view, {} off-view", before->number,
+                     faces_of(graph, outline.on_view, before->on_view).size(),
+                     faces_of(graph, before->on_view, outline.on_view).size());
+}
+
+}  // namespace
+
+std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines, const Canvas_arguments& canvas,
+                    bool lit) {
+  // 1. The frames, each as high as the highest needs.
+  std::vector<Projection> frames = projections_of(graph.scene(), outlines);
+  const Strip strip(outlines.size());
+  const std::array<int, 2> size = canvas.size_or(strip.size(frames, 300));
+  const std::array<double, 2> of_frame{
+      size[0] / static_cast<double>(strip.columns),
+      std::max(1.0, (size[1] - Strip::legend) / static_cast<double>(strip.rows) - Strip::title)};
   const std::string background = canvas.background_or("#ffffff"), ink = ink_on(background);
   Svg svg(size[0], size[1], background);
-  if (empty) return svg.text();
+  if (graph.scene().counters().faces == 0) return svg.text();
 
+  // 2. In each its on-view faces, the cut-set over them, and what changed.
   for (std::size_t number = 0; number < outlines.size(); ++number) {
     const Outline& outline = outlines[number];
-    Projection& to = frames[number];
-    to.fit(wide, high);
-    const double left = static_cast<double>(number % columns) * wide,
-                 top = static_cast<double>(number / columns) * (high + title) + title;
-    const auto at = [&](std::uint32_t p) { return Flat_point{left + to.flat[p][0], top + to.flat[p][1]}; };
-    const auto shown = [&](std::uint32_t p) {
-      return to.depth[p] > 1e-3 && to.flat[p][0] >= 0 && to.flat[p][0] <= wide && to.flat[p][1] >= 0 &&
-             to.flat[p][1] <= high;
-    };
-    // 2. What changed.
-    const std::vector<bool>& before = outlines[number == 0 ? 0 : number - 1].on_view;
-    const std::set<Face_id> born = faces_of(graph, outline.on_view, before),
-                            gone = faces_of(graph, before, outline.on_view);
-    // 3. On-view faces, the far ones first; then the cut-set.
-    std::vector<std::pair<double, std::uint32_t>> order;
-    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
-      const auto corners = scene.corners(scene.pieces()[i]);
-      if (!outline.on_view[graph.node(i)] ||
-          !std::all_of(corners.begin(), corners.end(), [&](const Piece_corner& c) { return shown(c.point); }))
-        continue;
-      double sum = 0;
-      for (const Piece_corner& corner : corners) sum += to.depth[corner.point];
-      order.emplace_back(-sum / static_cast<double>(corners.size()), i);
-    }
-    std::sort(order.begin(), order.end());
-    std::map<Face_id, std::size_t> polygons;  // of each face, so far
-    const auto shade = [&](std::uint32_t i) {
-      std::vector<Exact_point> corners;
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[i]))
-        corners.push_back(scene.position(corner.point));
-      return shade_of(corners);
-    };
-    for (const auto& [far, i] : order) {
-      const Face_id face = scene.pieces()[i].face;
-      const bool is_born = number > 0 && !before[graph.node(i)];
-      std::vector<Flat_point> polygon;
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) polygon.push_back(at(corner.point));
-      const std::array<int, 3> colour = is_born ? std::array{0xa9, 0xd6, 0xa0} : std::array{0xe3, 0xe8, 0xee};
-      svg.polygon(std::move(polygon), shaded(colour, lit ? shade(i) : 1), is_born ? "#5b9e6f" : "#9aa7b5",
-                  scene.pieces().size() > 3000 ? 0.15 : 0.4,
-                  fmt::format("frame-{}-face-{}-{}", outline.number, face, ++polygons[face]),
-                  fmt::format("face {}{}", face, is_born ? ", became on-view" : ""));
-    }
-    for (const Face_graph::Edge& edge : graph.edges())
-      if (outline.on_view[edge.first] != outline.on_view[edge.second] && shown(edge.from) && shown(edge.to))
-        svg.line(at(edge.from), at(edge.to), "#c0392b", 1.2);
-    svg.label(left + 6, top - 22, 12, outline.title, "start", ink);
-    svg.label(left + 6, top - 7, 12,
-              number == 0 ? "the first frame"
-                          : fmt::format("since {}: {} became on-view, {} off-view", outlines[number - 1].number,
-                                        born.size(), gone.size()),
-              "start", ink);
+    const Outline* const before = number == 0 ? nullptr : &outlines[number - 1];
+    const Placed_frame frame(std::move(frames[number]), of_frame, number % strip.columns, number / strip.columns);
+    draw_faces(svg, graph, outline, before == nullptr ? outline.on_view : before->on_view, frame, lit);
+    draw_cut_set(svg, graph, outline.on_view, frame);
+    svg.label(frame.left + 6, frame.top - 22, 12, outline.title, "start", ink);
+    svg.label(frame.left + 6, frame.top - 7, 12, change_words(graph, outline, before), "start", ink);
   }
   svg.label(6, size[1] - 10, 12,
             "grey: on-view faces; green: those that became on-view since the frame drawn before; red: edges of the "

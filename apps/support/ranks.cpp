@@ -1,5 +1,7 @@
 #include "ranks.h"
 
+#include <sightline/kernel/time_limit.h>
+
 #include <fmt/format.h>
 
 #include <dlfcn.h>

@@ -72,6 +72,92 @@ Json face_json(const Scene& scene, const Divided_face& divided) {
   return result;
 }
 
+// ---- Steps
+
+/// Of what does not go together, before a long read.
+void check_usage(const Source_arguments& of_sources) {
+  if (of_sources.two_sided)
+    throw Usage_error("--partition is of a face's front: leave out --two-sided; --flip turns the scene round");
+  if (!of_sources.volumes.empty() || !of_sources.solid.empty())
+    throw Usage_error("--partition wants polygons that look: --from-face or --from, not a volume");
+}
+
+void check_faces(const std::vector<Face_id>& faces, const Scene& scene) {
+  for (const Face_id face : faces)
+    if (std::none_of(scene.pieces().begin(), scene.pieces().end(),
+                     [&](const Piece& piece) { return piece.face == face; }))
+      throw Usage_error(fmt::format(
+          "--partition {}: the scene has no such face, or it was set aside (`sightline info` lists them)", face));
+}
+
+/// Each of the faces, divided; what the budget leaves no time for is undecided.
+std::vector<Divided_face> divided_faces(const Partition_arguments& arguments, const Light_partitioner& partitioner,
+                                        const Scene& scene, const Sources& sources, double budget,
+                                        Partition_counters& counters) {
+  Progress progress("dividing");
+  Partition_options options;
+  options.all_borders = arguments.all_borders;
+  options.out_of_time = Time_limit(budget).end();
+  std::vector<Divided_face> divided;
+  for (std::size_t k = 0; k < arguments.faces.size(); ++k) {
+    Divided_face& own = divided.emplace_back(Divided_face{arguments.faces[k], {}, {}});
+    options.progress = [&](double share) {
+      progress(static_cast<std::size_t>(1000 * (static_cast<double>(k) + share)), 1000 * arguments.faces.size());
+    };
+    for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
+      if (scene.pieces()[piece].face == own.face)
+        own.pieces.push_back(partitioner.partition(piece, sources.points, options, counters));
+    own.shares = shares_of_face(scene, own.pieces);
+  }
+  return divided;
+}
+
+Json result_json(const Scene& scene, const std::vector<Divided_face>& divided,
+                 const std::optional<Sampled_face>& sampled) {
+  Json all = Json::array(), result;
+  for (const Divided_face& own : divided) all.push_back(face_json(scene, own));
+  if (sampled) all.front()["sampled"] = rays_json(*sampled);
+  result["partition"] = all.front();
+  if (all.size() > 1) result["partitions"] = std::move(all);
+  return result;
+}
+
+void print(const Divided_face& own) {
+  std::size_t cells = 0, lines = 0, conics = 0;
+  for (const Light_partition& partition : own.pieces) {
+    cells += partition.cells.size();
+    for (const Light_partition::Border& border : partition.borders)
+      if (border.below != Light_partition::none && border.above != Light_partition::none)
+        ++(partition.curves[border.curve].is_line() ? lines : conics);
+    for (const Light_partition::Upright& border : partition.uprights)
+      lines += border.left != Light_partition::none && border.right != Light_partition::none;
+  }
+  const auto percent = [&](Light light) {
+    const Bounded share = share_of(own, light);
+    return fmt::format("{:.6f} %", 50 * (share.low + share.high));
+  };
+  row(fmt::format("face {}", own.face),
+      fmt::format("lit {}, penumbra {}, umbra {}{}", percent(Light::lit), percent(Light::penumbra),
+                  percent(Light::umbra),
+                  share_of(own, Light::undecided).high > 0 ? ", undecided " + percent(Light::undecided) : ""));
+  row("", fmt::format("{} cells; borders: {} parts of lines, {} of conics", cells, lines, conics));
+}
+
+void print(const Sampled_face& sampled) {
+  const auto percent = [&](Light light) {
+    return fmt::format("{} {:.2f} %", name_of(light), 100 * sampled.shares[static_cast<std::size_t>(light)]);
+  };
+  row("", fmt::format("by {} rays: {}, {}, {}", sampled.rays, percent(Light::lit), percent(Light::penumbra),
+                      percent(Light::umbra)));
+}
+
+void print(const Partition_counters& counters) {
+  const Border_counters& b = counters.borders;
+  row("candidates", fmt::format("{} planes of edges, {} triples; {} curves kept", b.planes, b.triples, b.curves));
+  row("rectangles", fmt::format("{}: {} seen alike, {} with curves, {} sectors", counters.boxes, counters.alike,
+                                counters.arrangements, counters.sectors));
+}
+
 }  // namespace
 
 Option Partition_arguments::add_to(Command command) {
@@ -97,94 +183,39 @@ Option Partition_arguments::add_to(Command command) {
 
 Exit run_partition(const Partition_arguments& arguments, const Common& common, const Source_arguments& of_sources,
                    const std::string& svg) {
-  if (of_sources.two_sided)
-    throw Usage_error("--partition is of a face's front: leave out --two-sided; --flip turns the scene round");
-  if (!of_sources.volumes.empty() || !of_sources.solid.empty())
-    throw Usage_error("--partition wants polygons that look: --from-face or --from, not a volume");
+  check_usage(of_sources);
   const Polygon_soup soup = common.read();
   const Scene scene(soup);
-  for (const Face_id face : arguments.faces)
-    if (std::none_of(scene.pieces().begin(), scene.pieces().end(),
-                     [&](const Piece& piece) { return piece.face == face; }))
-      throw Usage_error(fmt::format(
-          "--partition {}: the scene has no such face, or it was set aside (`sightline info` lists them)", face));
+  check_faces(arguments.faces, scene);
+
+  // 1. The faces, divided, and what rays make of the first of them.
   Stopwatch watch;
   const Occluders occluders(scene);
   const Sources sources = sources_of(of_sources, common, soup, occluders);
   const Light_partitioner partitioner(scene);
   const double prepare_seconds = watch.seconds();
-
   watch = {};
-  Progress progress("dividing");
-  Partition_options options;
-  options.all_borders = arguments.all_borders;
-  if (common.budget > 0) options.out_of_time = [&] { return watch.seconds() > common.budget; };
   Partition_counters counters;
-  std::vector<Divided_face> divided;
-  for (std::size_t k = 0; k < arguments.faces.size(); ++k) {
-    Divided_face& own = divided.emplace_back(Divided_face{arguments.faces[k], {}, {}});
-    options.progress = [&](double share) {
-      progress(static_cast<std::size_t>(1000 * (static_cast<double>(k) + share)), 1000 * arguments.faces.size());
-    };
-    for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
-      if (scene.pieces()[piece].face == own.face)
-        own.pieces.push_back(partitioner.partition(piece, sources.points, options, counters));
-    own.shares = shares_of_face(scene, own.pieces);
-  }
+  const std::vector<Divided_face> divided =
+      divided_faces(arguments, partitioner, scene, sources, common.budget, counters);
   const double seconds = watch.seconds();
-  progress.clear();
-
   std::optional<Sampled_face> sampled;
   if (arguments.rays > 0)
     sampled = sampled_face(occluders, divided.front(), sources.polygons, arguments.rays, common.seed);
+
+  // 2. What is written and told of them.
   if (!svg.empty()) write_file(svg, picture_of(scene, divided.front(), sampled ? &*sampled : nullptr));
   const bool open = std::any_of(divided.begin(), divided.end(),
                                 [](const Divided_face& own) { return share_of(own, Light::undecided).high > 0; });
   const Exit exit = open ? Exit::undecided : Exit::done;
-  Json result;
-  if (!common.json.empty()) {
-    Json all = Json::array();
-    for (const Divided_face& own : divided) all.push_back(face_json(scene, own));
-    if (sampled) all.front()["sampled"] = rays_json(*sampled);
-    result["partition"] = all.front();
-    if (all.size() > 1) result["partitions"] = std::move(all);
-  }
-  if (write_json(common, "weak", scene, std::move(result), counters_json(counters),
-                 {{"prepare", prepare_seconds}, {"partition", seconds}}))
+  if (write_json(common, "weak", scene, common.json.empty() ? Json() : result_json(scene, divided, sampled),
+                 counters_json(counters), {{"prepare", prepare_seconds}, {"partition", seconds}}))
     return exit;
   scene_rows(scene);
   row("sources", fmt::format("{} convex polygons", sources.polygons.size()));
-  for (const Divided_face& own : divided) {
-    std::size_t cells = 0, lines = 0, conics = 0;
-    for (const Light_partition& partition : own.pieces) {
-      cells += partition.cells.size();
-      for (const Light_partition::Border& border : partition.borders)
-        if (border.below != Light_partition::none && border.above != Light_partition::none)
-          ++(partition.curves[border.curve].is_line() ? lines : conics);
-      for (const Light_partition::Upright& border : partition.uprights)
-        lines += border.left != Light_partition::none && border.right != Light_partition::none;
-    }
-    const auto percent = [&](Light light) {
-      const Bounded share = share_of(own, light);
-      return fmt::format("{:.6f} %", 50 * (share.low + share.high));
-    };
-    row(fmt::format("face {}", own.face),
-        fmt::format("lit {}, penumbra {}, umbra {}{}", percent(Light::lit), percent(Light::penumbra),
-                    percent(Light::umbra),
-                    share_of(own, Light::undecided).high > 0 ? ", undecided " + percent(Light::undecided) : ""));
-    row("", fmt::format("{} cells; borders: {} parts of lines, {} of conics", cells, lines, conics));
-  }
-  if (sampled) {
-    const auto percent = [&](Light light) {
-      return fmt::format("{} {:.2f} %", name_of(light), 100 * sampled->shares[static_cast<std::size_t>(light)]);
-    };
-    row("", fmt::format("by {} rays: {}, {}, {}", sampled->rays, percent(Light::lit), percent(Light::penumbra),
-                        percent(Light::umbra)));
-  }
-  const Border_counters& b = counters.borders;
-  row("candidates", fmt::format("{} planes of edges, {} triples; {} curves kept", b.planes, b.triples, b.curves));
-  row("rectangles", fmt::format("{}: {} seen alike, {} with curves, {} sectors", counters.boxes, counters.alike,
-                                counters.arrangements, counters.sectors));
+  for (const Divided_face& own : divided) print(own);
+  if (sampled) print(*sampled);
+  print(counters);
   row("seconds", fmt::format("{:.4f}, and {:.4f} to prepare the scene", seconds, prepare_seconds));
   return exit;
 }

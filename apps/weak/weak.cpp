@@ -15,27 +15,32 @@
 
 namespace sightline::app {
 
-static Exit run_weak(const Weak_arguments& arguments) {
-  const Common& common = arguments.common;
-  const std::string& method = arguments.method;
+namespace {
+
+/// --partition and --along are questions of their own, with options of their own.
+Exit run_other_question(const Weak_arguments& arguments) {
   const bool is_partition = arguments.partition.asked_for();
-  if (is_partition || !arguments.along.empty()) {
-    const std::string name = is_partition ? "--partition" : "--along";
-    const char* const given = arguments.view.first_given();
-    for (const auto& [other, is_given] : {std::pair("--obj", !arguments.obj.empty()),
-                                          {"--mesh", !arguments.mesh.empty()},
-                                          {"--eye", !arguments.eye.empty()},
-                                          {given, given != nullptr},
-                                          {"--html", !arguments.html.empty()},
-                                          {"--surfaces", !arguments.surfaces.empty()}})
-      if (is_given)
-        throw Usage_error(std::string(other) + " is for faces that are visible or hidden: leave it out with " + name);
-    if (is_partition && !arguments.certificate.empty())
-      throw Usage_error("--certificate is not written of a partition: leave it out with --partition");
-    if (is_partition) return run_partition(arguments.partition, common, arguments.sources, arguments.svg);
-    if (!arguments.sources.empty()) throw Usage_error("--along is a path of its own: leave out --from and its like");
-    return run_along(common, {arguments.along, arguments.sources.two_sided, arguments.certificate, arguments.svg});
-  }
+  const std::string name = is_partition ? "--partition" : "--along";
+  const char* const given = arguments.view.first_given();
+  for (const auto& [other, is_given] : {std::pair("--obj", !arguments.obj.empty()),
+                                        {"--mesh", !arguments.mesh.empty()},
+                                        {"--eye", !arguments.eye.empty()},
+                                        {given, given != nullptr},
+                                        {"--html", !arguments.html.empty()},
+                                        {"--surfaces", !arguments.surfaces.empty()}})
+    if (is_given)
+      throw Usage_error(std::string(other) + " is for faces that are visible or hidden: leave it out with " + name);
+  if (is_partition && !arguments.certificate.empty())
+    throw Usage_error("--certificate is not written of a partition: leave it out with --partition");
+  if (is_partition) return run_partition(arguments.partition, arguments.common, arguments.sources, arguments.svg);
+  if (!arguments.sources.empty()) throw Usage_error("--along is a path of its own: leave out --from and its like");
+  return run_along(arguments.common,
+                   {arguments.along, arguments.sources.two_sided, arguments.certificate, arguments.svg});
+}
+
+/// Of what does not go together.
+void check_usage(const Weak_arguments& arguments) {
+  const std::string& method = arguments.method;
   if ((method == "sample" || method == "doubles") && !arguments.certificate.empty())
     throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
   const Weak_task usual;
@@ -44,70 +49,75 @@ static Exit run_weak(const Weak_arguments& arguments) {
         {"--cells", "lines", arguments.task.cells != usual.cells},
         {"--event-edges", "lines", arguments.task.event_edges != usual.event_edges}})
     if (is_given && method != its) throw Usage_error(fmt::format("{} is for --method {}: leave it out", option, its));
-  const bool as_obj = arguments.surfaces.ends_with(".obj");
   if (!arguments.surfaces.empty() && method != "events")
     throw Usage_error("--surfaces are those of events: add --method events");
-  if (!arguments.surfaces.empty() && !as_obj && !arguments.surfaces.ends_with(".json"))
+  if (!arguments.surfaces.empty() && !arguments.surfaces.ends_with(".obj") && !arguments.surfaces.ends_with(".json"))
     throw Usage_error("--surfaces wants a file that ends with .json or .obj, not " + arguments.surfaces);
   arguments.view.check_usage(!arguments.svg.empty());
   if (arguments.svg.empty() && !arguments.eye.empty())
     throw Usage_error("--eye is the eye of the picture: add --svg FILE, or leave it out");
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
-  const Polygon_soup soup = common.read();
-  const Scene scene(soup);
-  Stopwatch watch;
-  const Occluders occluders(scene);
-  const Sources sources = sources_of(arguments.sources, common, soup, occluders);
-  const double prepare_seconds = watch.seconds();
-  Progress progress("searching");
+}
+
+/// What the method is asked, its budget from now on: some leave open what they have no time for, others end.
+Weak_task task_of(const Weak_arguments& arguments, const std::function<void(std::size_t, std::size_t)>& report) {
+  const Common& common = arguments.common;
   Weak_task task = arguments.task;
   task.two_sided = arguments.sources.two_sided;
   task.threads = common.threads;
   task.seed = common.seed;
   task.surfaces = !arguments.surfaces.empty();
-  const bool leaves_open = method == "lines" || method == "events";
-  const std::function<void(std::size_t, std::size_t)> report = [&](std::size_t done, std::size_t all) {
-    progress(done, all);
-  };
-  if (leaves_open && common.budget > 0) task.out_of_time = [&] { return watch.seconds() > common.budget; };
+  const bool leaves_open = arguments.method == "lines" || arguments.method == "events";
+  if (leaves_open) task.out_of_time = Time_limit(common.budget).end();
   task.progress = leaves_open ? report : common.within_budget(report);
-  watch = {};
-  const Weak_outcome outcome = run_weak_method(method, occluders, sources, task);
-  const Weakly_visible& found = outcome.found;
-  const double seconds = watch.seconds();
-  progress.clear();
+  return task;
+}
 
+/// The certificate, surfaces, pictures and the page, where they are asked for.
+void write_outputs(const Weak_arguments& arguments, const Polygon_soup& soup, const Occluders& occluders,
+                   const Sources& sources, const Weak_outcome& outcome) {
+  const Scene& scene = occluders.scene();
+  const Weakly_visible& found = outcome.found;
   if (!arguments.certificate.empty())
     write_file(arguments.certificate, [&](std::ostream& out) {
-      write_certificate(out, weak_certificate(scene, sources.points, task.two_sided, found));
+      write_certificate(out, weak_certificate(scene, sources.points, arguments.sources.two_sided, found));
     });
   if (!arguments.surfaces.empty())
-    write_file(arguments.surfaces,
-               as_obj ? surfaces_obj(outcome.surfaces) : surfaces_json(scene, outcome.surfaces).dump() + "\n");
+    write_file(arguments.surfaces, arguments.surfaces.ends_with(".obj")
+                                       ? surfaces_obj(outcome.surfaces)
+                                       : surfaces_json(scene, outcome.surfaces).dump() + "\n");
   const std::vector<std::string> names = names_of(scene, found, sources.points.size());
   if (!arguments.svg.empty()) draw(arguments, soup, occluders, sources, names);
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(scene, sources, names));
   if (!arguments.html.empty()) write_page(arguments, scene, sources, found, names);
+}
 
-  const Exit exit = found.undecided.empty() ? Exit::done : Exit::undecided;
-  const Weak_counters& c = found.counters;
-  const Event_counters& e = outcome.events;
-  Json counters = counters_json(c);
-  counters["events"] = counters_json(e);
+Json counters_of(const Weak_outcome& outcome) {
+  Json counters = counters_json(outcome.found.counters);
+  counters["events"] = counters_json(outcome.events);
   counters["events"]["surfaces"] = outcome.surfaces.size();
-  Json result{
-      {"visible", found.visible},     {"hidden", found.hidden},
-      {"undecided", found.undecided}, {"certificate", arguments.certificate},
-      {"unproved", found.unproved},   {"by_events", outcome.by_events},
-      {"within", outcome.within},     {"open", common.json.empty() ? Json() : open_json(occluders, sources, found)}};
-  if (write_json(common, "weak", scene, std::move(result), counters,
-                 {{"prepare", prepare_seconds}, {"search", seconds}}))
-    return exit;
-  scene_rows(scene);
-  row("sources", fmt::format("{} convex polygons", sources.polygons.size()));
-  row("visible", fmt::format("{} of {} faces", found.visible.size(), scene.counters().faces));
-  if (method == "conservative")
+  return counters;
+}
+
+Json result_json(const Weak_arguments& arguments, const Occluders& occluders, const Sources& sources,
+                 const Weak_outcome& outcome) {
+  const Weakly_visible& found = outcome.found;
+  return {{"visible", found.visible},
+          {"hidden", found.hidden},
+          {"undecided", found.undecided},
+          {"certificate", arguments.certificate},
+          {"unproved", found.unproved},
+          {"by_events", outcome.by_events},
+          {"within", outcome.within},
+          {"open", arguments.common.json.empty() ? Json() : open_json(occluders, sources, found)}};
+}
+
+/// What is known of the faces.
+void print_faces(const Weak_arguments& arguments, const Weak_outcome& outcome, std::size_t faces) {
+  const Weakly_visible& found = outcome.found;
+  row("visible", fmt::format("{} of {} faces", found.visible.size(), faces));
+  if (arguments.method == "conservative")
     row("of these, too many",
         "those that several pieces hide together: `sightline compare SCENE weak` with the same sources says how many");
   if (!outcome.within.empty())
@@ -123,29 +133,72 @@ static Exit run_weak(const Weak_arguments& arguments) {
     row("by events", fmt::format("{} of them, that lines left open", outcome.by_events.size()));
   if (!found.unproved.empty())
     row("unproved", fmt::format("{}: a certificate leaves these open", found.unproved.size()));
-  if (method == "sample") row("rays", fmt::format("{} from each source; nothing is proved", task.rays));
-  if (method == "lines")
+}
+
+/// How they came to be known.
+void print_search(const Weak_arguments& arguments, const Weak_outcome& outcome) {
+  const Weakly_visible& found = outcome.found;
+  const Weak_counters& c = found.counters;
+  const Event_counters& e = outcome.events;
+  if (arguments.method == "sample")
+    row("rays", fmt::format("{} from each source; nothing is proved", arguments.task.rays));
+  if (arguments.method == "lines") {
     row("searches",
         fmt::format("{}: {} facing away, {} seen by the first lines, {} hidden by one piece; {} cells in the others",
                     c.targets, c.away, c.by_rays, c.by_one, c.cells));
-  if (method == "lines" && found.visible.empty() && found.undecided.empty() && c.away > 0 && c.cells == 0 &&
-      c.by_one == 0)
-    row("turned round?",
-        "all faces are behind the source or have their backs to it; a source looks to the side from which its corners "
-        "run counterclockwise: to look to the other one, write them backwards; --flip turns the scene instead");
-  if (method == "lines")
+    if (found.visible.empty() && found.undecided.empty() && c.away > 0 && c.cells == 0 && c.by_one == 0)
+      row("turned round?",
+          "all faces are behind the source or have their backs to it; a source looks to the side from which its "
+          "corners run counterclockwise: to look to the other one, write them backwards; --flip turns the scene "
+          "instead");
     row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} "
                              "linear programs, {} of them exact",
                              c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections,
                              c.programs + c.exact_programs, c.exact_programs));
+  }
   if (e.targets > 0)
     row("events", fmt::format("{} searches; {} in planes of edges, {} of a vertex and an edge, {} of three edges; {} "
                               "cells of lines beside them",
                               e.targets, e.horizon, e.edge_vertex, e.triple, e.cells));
-  if (task.surfaces) row("surfaces", fmt::format("{} in {}", outcome.surfaces.size(), arguments.surfaces));
+  if (!arguments.surfaces.empty())
+    row("surfaces", fmt::format("{} in {}", outcome.surfaces.size(), arguments.surfaces));
+}
+
+Exit run_weak(const Weak_arguments& arguments) {
+  const Common& common = arguments.common;
+  if (arguments.partition.asked_for() || !arguments.along.empty()) return run_other_question(arguments);
+  check_usage(arguments);
+  const Polygon_soup soup = common.read();
+  const Scene scene(soup);
+
+  // 1. What is visible.
+  Stopwatch watch;
+  const Occluders occluders(scene);
+  const Sources sources = sources_of(arguments.sources, common, soup, occluders);
+  const double prepare_seconds = watch.seconds();
+  Progress progress("searching");
+  watch = {};
+  const Weak_outcome outcome =
+      run_weak_method(arguments.method, occluders, sources,
+                      task_of(arguments, [&](std::size_t done, std::size_t all) { progress(done, all); }));
+  const double seconds = watch.seconds();
+  progress.clear();
+
+  // 2. What is written and told of it.
+  write_outputs(arguments, soup, occluders, sources, outcome);
+  const Exit exit = outcome.found.undecided.empty() ? Exit::done : Exit::undecided;
+  if (write_json(common, "weak", scene, result_json(arguments, occluders, sources, outcome), counters_of(outcome),
+                 {{"prepare", prepare_seconds}, {"search", seconds}}))
+    return exit;
+  scene_rows(scene);
+  row("sources", fmt::format("{} convex polygons", sources.polygons.size()));
+  print_faces(arguments, outcome, scene.counters().faces);
+  print_search(arguments, outcome);
   row("seconds", fmt::format("{:.4f}, and {:.4f} to prepare the scene", seconds, prepare_seconds));
   return exit;
 }
+
+}  // namespace
 
 void add_weak(Command program) {
   const Command command =

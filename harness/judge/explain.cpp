@@ -8,11 +8,11 @@
 #include <sightline/algorithms/rays/tracer.h>
 #include <sightline/harness/judge/truth.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/time_limit.h>
 #include <sightline/kernel/vectors.h>
 #include <sightline/sightline.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -288,9 +288,7 @@ std::optional<Refutation> sightline_to(const Scene& scene, const Query& query, c
   Weak_options options;
   options.search.two_sided = query.two_sided;
   options.faces = faces;
-  options.search.out_of_time = [seconds, start = std::chrono::steady_clock::now()] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds;
-  };
+  options.search.out_of_time = [watch = Stopwatch(), seconds] { return watch.seconds() > seconds; };
   const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, query.source)}, options);
   const Weak_certificate proof = weak_certificate(scene, {query.source}, query.two_sided, found);
   if (proof.visible.empty()) return std::nullopt;

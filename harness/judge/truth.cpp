@@ -16,9 +16,9 @@
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <iterator>
 #include <map>
@@ -106,10 +106,7 @@ void find_lit(const Polygon_soup& soup, const Scene& scene, const Query& query, 
   Weak_options weak;
   weak.threads = options.threads;
   weak.search.two_sided = query.two_sided;
-  const auto start = std::chrono::steady_clock::now();
-  weak.search.out_of_time = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > options.seconds;
-  };
+  weak.search.out_of_time = [watch = Stopwatch(), &options] { return watch.seconds() > options.seconds; };
   std::vector<Weak_source> sources;
   try {
     sources.push_back(weak_source(occluders, query.source));

@@ -11,11 +11,11 @@
 #include <sightline/harness/laws/reduce.h>
 #include <sightline/kernel/quoted.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 namespace sightline::python {
@@ -58,10 +58,9 @@ void check_signals() {
 }
 
 std::function<bool()> end_after(double seconds) {
-  const auto start = std::chrono::steady_clock::now();
-  return [start, seconds] {
+  return [watch = Stopwatch(), seconds] {
     check_signals();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >= seconds;
+    return watch.seconds() >= seconds;
   };
 }
 

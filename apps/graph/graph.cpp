@@ -1,19 +1,16 @@
 // sightline graph: the priority graph of a scene, its strongly connected components, and their order.
 
-#include "support/drawing.h"
-#include "support/page.h"
-#include "support/pixels.h"
+#include "../support/drawing.h"
+#include "../support/page.h"
+#include "clusters.h"
 
-#include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/priority/certificate.h>
-#include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
-#include <functional>
 #include <iostream>
-#include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -21,34 +18,10 @@ namespace sightline::app {
 
 namespace {
 
-struct Graph_arguments {
-  Common common;
-  std::string method = "implicit", eye, direction, dot, html, mesh, certificate;
-  std::vector<std::string> box, region;
-  bool arcs = false, tree = false, split = false, codes = false, two_sided = false;
-  Pixel_arguments pixels;
-  bool wants_tree() const { return tree || split || codes || two_sided; }
-};
-
 using Faces = Priority_relation<Exact_traits>;
-using Report = std::function<void(std::size_t done, std::size_t all)>;
-
-/// One budget for all that a command does, whatever it shows of it.
-Report shown(const Report& in_time, Progress& progress) {
-  return [&](std::size_t done, std::size_t all) {
-    in_time(done, all);
-    progress(done, all);
-  };
-}
-
-const std::map<Precedence, std::string> precedence_names{{Precedence::never, "never"},
-                                                         {Precedence::first, "first"},
-                                                         {Precedence::second, "second"},
-                                                         {Precedence::by_plane, "plane"},
-                                                         {Precedence::crossing, "crossing"}};
-
 /// What a run found.
 struct Found {
+  std::string scope;  // the viewpoints, in words
   Priority_components components;
   std::optional<Explicit_priority_graph> arcs;  // where they were asked for
   Component_trees trees;                        // implicit only
@@ -84,9 +57,6 @@ Found find(const Relation& relation, const Graph_arguments& arguments, const Rep
   return found;
 }
 
-Json name_json(const Scene& scene, std::uint32_t piece) {
-  return {scene.pieces()[piece].face, scene.pieces()[piece].number};
-}
 std::string name(const Scene& scene, std::uint32_t piece) {
   const Piece& p = scene.pieces()[piece];
   return p.number == 0 ? std::to_string(p.face) : fmt::format("{}.{}", p.face, p.number);
@@ -122,65 +92,12 @@ std::string dot_of(const Scene& scene, const Found& found) {
   return text + "}\n";
 }
 
-/// The tree of clusters, the codes of the cycles that it leaves, and how many parts a BSP tree would have made.
-struct Clusters {
-  Priority_tree<Exact_traits> tree;
-  double seconds = 0;
-  std::uint64_t bsp_fragments = 0;
-  std::map<Precedence, std::uint64_t> pairs;
-  Json codes = Json::array();  // of the pairs that some ray pierces
-};
-
-Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph_arguments& arguments,
-                     const Report& in_time) {
-  Clusters found;
-  Stopwatch watch;
-  Progress progress("separating");
-  const Report report = shown(in_time, progress);
-  found.tree = build_priority_tree(traits, {arguments.two_sided, arguments.split, report});
-  found.seconds = watch.seconds();
-  if (arguments.split) {
-    Bsp_options options;
-    options.seed = arguments.common.seed;
-    options.threads = arguments.common.threads;
-    options.progress = in_time;
-    found.bsp_fragments = build_bsp(traits, options).counters.fragments;
-  }
-  if (!arguments.codes) return found;
-
-  const Priority_relation<Exact_traits> faces(traits, found.tree.polygons);
-  Relation_counters counters;
-  const auto name_of = [&](std::uint32_t i) -> Json {
-    Json label = name_json(scene, found.tree.polygons[i].piece);
-    if (arguments.two_sided) label.push_back(found.tree.turned[i] ? "back" : "front");
-    return label;
-  };
-  for (const auto& node : found.tree.nodes) {
-    if (node.kind != Priority_tree<Exact_traits>::Kind::cycle) continue;
-    const auto members = found.tree.slots_of(node);
-    for (std::size_t a = 0; a < members.size(); ++a) {
-      for (std::size_t b = a + 1; b < members.size(); ++b) {
-        report(a, members.size());
-        const std::uint32_t i = static_cast<std::uint32_t>(members[a]), j = static_cast<std::uint32_t>(members[b]);
-        const Pair_code code = pair_code(faces, i, j, counters);
-        ++found.pairs[code.precedence];
-        if (arguments.common.json.empty() || code.precedence == Precedence::never) continue;
-        Json entry{name_of(i), name_of(j), precedence_names.at(code.precedence)};
-        if (code.plane)
-          entry.push_back({{"normal", point_json(code.plane->normal)}, {"point", point_json(code.plane->point)}});
-        found.codes.push_back(std::move(entry));
-      }
-    }
-  }
-  return found;
-}
-
 /// The pieces with their components, and the arcs where they are known and not too many.
-void write_page(const Scene& scene, const Found& found, const std::string& scope, const std::string& file) {
+void write_page(const Scene& scene, const Found& found, const std::string& file) {
   const Priority_components& all = found.components;
   Page page("graph", scene);
   page.add_fact("faces", fmt::format("{}", scene.counters().faces));
-  page.add_fact("scope", scope);
+  page.add_fact("scope", found.scope);
   page.add_fact("arcs", found.arcs ? fmt::format("{}", found.arcs->arc_count()) : "not written out: --arcs does");
   page.add_fact("components",
                 fmt::format("{}, {} of them cyclic, the largest of {} faces", all.size(), all.cyclic(), all.largest()));
@@ -243,48 +160,10 @@ std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& trait
   return images;
 }
 
-void print(const Clusters& clusters, const Graph_arguments& arguments) {
-  const Priority_tree_counters& c = clusters.tree.counters;
-  row("tree", fmt::format("{} planes that cut nothing{} ({} of no face), {} lists of fixed order, depth {}; {:.3f} s",
-                          c.planes - c.cutting_planes,
-                          c.cutting_planes > 0 ? fmt::format(" and {} that cut", c.cutting_planes) : "", c.free_planes,
-                          c.sequences, c.depth, clusters.seconds));
-  row("settled",
-      fmt::format("of {} {}: {} by priority, {} on planes, {} left in {} cycles", c.polygons,
-                  arguments.two_sided ? "sides of faces" : "faces", c.by_number, c.by_plane, c.left, c.cycles));
-  if (arguments.split)
-    row("pieces", fmt::format("{} after {} cuts; a BSP tree has {} fragments: {:.2f} of them", c.polygons, c.splits,
-                              clusters.bsp_fragments,
-                              static_cast<double>(c.polygons) / (arguments.two_sided ? 2 : 1) /
-                                  static_cast<double>(std::max<std::uint64_t>(1, clusters.bsp_fragments))));
-  if (arguments.codes) {
-    const auto count = [&](Precedence p) { return clusters.pairs.contains(p) ? clusters.pairs.at(p) : 0; };
-    row("codes", fmt::format("of the pairs in cycles {} are never seen along one ray, {} in one order, {} by the eye's "
-                             "side of a plane, {} cross",
-                             count(Precedence::never), count(Precedence::first) + count(Precedence::second),
-                             count(Precedence::by_plane), count(Precedence::crossing)));
-  }
-}
-
-Json to_json(const Clusters& clusters) {
-  const Priority_tree_counters& c = clusters.tree.counters;
-  return {{"polygons", c.polygons},
-          {"by_number", c.by_number},
-          {"by_plane", c.by_plane},
-          {"left", c.left},
-          {"planes", c.planes},
-          {"cutting_planes", c.cutting_planes},
-          {"free_planes", c.free_planes},
-          {"sequences", c.sequences},
-          {"cycles", c.cycles},
-          {"depth", c.depth},
-          {"graphs", c.graphs}};
-}
-
-void print(const Scene& scene, const Found& found, const std::string& scope, const Graph_arguments& arguments) {
+void print(const Scene& scene, const Found& found, const Graph_arguments& arguments) {
   const Priority_components& all = found.components;
   scene_rows(scene);
-  row("scope", scope);
+  row("scope", found.scope);
   if (found.arcs) row("arcs", fmt::format("{}", found.arcs->arc_count()));
   else row("arcs", "not written out; --arcs does");
   row("components", fmt::format("{}: {} of one face, {} cyclic, the largest of {} faces", all.size(),
@@ -304,10 +183,8 @@ void print(const Scene& scene, const Found& found, const std::string& scope, con
   if (all.size() > shown) std::cout << fmt::format("   ... {} more: --json - prints them all\n", all.size() - shown);
 }
 
-}  // namespace
-
 /// The pieces, in cycles or not, with the number of their component.
-static void write_mesh(const Scene& scene, const Priority_components& components, const std::string& file) {
+void write_mesh(const Scene& scene, const Priority_components& components, const std::string& file) {
   Grouped_polygons polygons;
   const std::uint32_t alone = polygons.add_group("alone", drawing_colours::hidden),
                       cyclic = polygons.add_group("cyclic", drawing_colours::seen);
@@ -319,86 +196,86 @@ static void write_mesh(const Scene& scene, const Priority_components& components
   write_drawings({}, file, polygons);
 }
 
-static Exit run(const Graph_arguments& arguments) {
-  const Common& common = arguments.common;
-  // Usage errors come before a long read.
-  const std::vector<Exact_point> box = parse_points(arguments.box, "--box"),
-                                 region = parse_points(arguments.region, "--region");
-  if (!arguments.box.empty() && box.size() != 2) throw Usage_error("--box wants two corners X,Y,Z X,Y,Z");
-  const Exact_point origin;
-  const Exact_point eye = arguments.eye.empty() ? origin : parse_point(arguments.eye, "--eye");
-  const Exact_point direction = arguments.direction.empty() ? origin : parse_point(arguments.direction, "--ray");
-  if (!arguments.direction.empty() && direction == origin)
+/// Which viewpoints are asked about: all, those of a box or of the hull of some points, one, or those of one ray.
+struct Viewpoints {
+  std::vector<Exact_point> box, region;
+  std::optional<Exact_point> eye, direction;  // with a direction the ray's; by itself, an eye
+
+  bool are_all() const { return box.empty() && region.empty() && !eye; }
+};
+
+/// Usage errors come before a long read.
+Viewpoints viewpoints_of(const Graph_arguments& arguments) {
+  Viewpoints asked{parse_points(arguments.box, "--box"), parse_points(arguments.region, "--region"), {}, {}};
+  if (!arguments.box.empty() && asked.box.size() != 2) throw Usage_error("--box wants two corners X,Y,Z X,Y,Z");
+  if (!arguments.eye.empty()) asked.eye = parse_point(arguments.eye, "--eye");
+  if (!arguments.direction.empty()) asked.direction = parse_point(arguments.direction, "--ray");
+  if (asked.direction && *asked.direction == Exact_point())
     throw Usage_error("--ray wants a direction that is not 0,0,0");
-  const bool whole = box.empty() && region.empty() && arguments.eye.empty();
-  if (!arguments.certificate.empty() && !(whole && arguments.method == "implicit"))
+  if (!arguments.certificate.empty() && !(asked.are_all() && arguments.method == "implicit"))
     throw Usage_error(
         "--certificate is for --method implicit over all viewpoints: leave out --box, --region and --eye");
-  if (!whole && (arguments.wants_tree() || !arguments.pixels.size.empty()))
+  if (!asked.are_all() && (arguments.wants_tree() || !arguments.pixels.size.empty()))
     throw Usage_error(
         "--tree, --codes, --split, --two-sided and --pixels are over all viewpoints: leave out --box, --region and "
         "--eye");
+  return asked;
+}
 
-  const std::vector<View> views = arguments.pixels.size.empty() ? std::vector<View>{} : read_views(arguments.pixels);
-  if (!arguments.pixels.pictures.empty()) {
-    std::vector<Named_file> pictures;
-    for (std::size_t k = 1; k <= views.size(); ++k)
-      pictures.push_back({"--pictures", picture_file(arguments.pixels, k)});
-    common.command->check_outputs(pictures);
+/// No picture of a view takes the place of what else is written.
+void check_pictures(const Graph_arguments& arguments, std::size_t views) {
+  if (arguments.pixels.pictures.empty()) return;
+  std::vector<Named_file> pictures;
+  for (std::size_t k = 1; k <= views; ++k) pictures.push_back({"--pictures", picture_file(arguments.pixels, k)});
+  arguments.common.command->check_outputs(pictures);
+}
+
+/// What is found of the viewpoints that are asked about.
+Found found_from(const Viewpoints& asked, const Faces& faces, const Graph_arguments& arguments, const Report& in_time) {
+  const auto in_scope = [](Found found, std::string scope) {
+    found.scope = std::move(scope);
+    return found;
+  };
+  if (asked.direction)
+    return in_scope(find(Ray_relation<Exact_traits>(faces, asked.eye.value_or(Exact_point()), *asked.direction),
+                         arguments, in_time),
+                    "one ray");
+  if (asked.eye)
+    return in_scope(find(Region_relation<Exact_traits>(faces, View_region::eye(*asked.eye)), arguments, in_time),
+                    "one viewpoint");
+  if (asked.are_all()) return in_scope(find(faces, arguments, in_time), "all viewpoints");
+  const View_region region =
+      asked.box.empty() ? View_region{asked.region} : View_region::box(asked.box[0], asked.box[1]);
+  return in_scope(find(Region_relation<Exact_traits>(faces, region), arguments, in_time),
+                  region.points.empty() ? "no viewpoint: the box is empty"
+                                        : fmt::format("viewpoints in the hull of {} points", region.points.size()));
+}
+
+/// Highest priority first.
+Json components_json(const Scene& scene, const Priority_components& all) {
+  Json components = Json::array();
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    Json& members = components.emplace_back(Json::array());
+    for (const std::uint32_t i : all[c]) members.push_back(name_json(scene, i));
   }
+  return components;
+}
 
-  const Scene scene(common.read());
-  const Report in_time = common.within_budget([](std::size_t, std::size_t) {});
-  const Exact_traits traits(scene);
-  const Faces faces(traits);
-  std::string scope = "all viewpoints";
-  const Found found = [&] {
-    if (!arguments.direction.empty()) {
-      scope = "one ray";
-      return find(Ray_relation<Exact_traits>(faces, eye, direction), arguments, in_time);
-    }
-    if (!arguments.eye.empty()) {
-      scope = "one viewpoint";
-      return find(Region_relation<Exact_traits>(faces, View_region::eye(eye)), arguments, in_time);
-    }
-    if (!whole) {
-      const View_region viewpoints = box.empty() ? View_region{region} : View_region::box(box[0], box[1]);
-      scope = viewpoints.points.empty() ? "no viewpoint: the box is empty"
-                                        : fmt::format("viewpoints in the hull of {} points", viewpoints.points.size());
-      return find(Region_relation<Exact_traits>(faces, viewpoints), arguments, in_time);
-    }
-    return find(faces, arguments, in_time);
-  }();
+Json arcs_json(const Scene& scene, const Arc_graph& graph) {
+  Json list = Json::array();
+  for (const auto& arc : boost::make_iterator_range(boost::edges(graph)))
+    list.push_back({name_json(scene, static_cast<std::uint32_t>(boost::source(arc, graph))),
+                    name_json(scene, static_cast<std::uint32_t>(boost::target(arc, graph)))});
+  return list;
+}
 
-  if (!arguments.certificate.empty()) {
-    in_time(1, 1);  // no certificate once the budget is over
-    write_file(arguments.certificate, [&](std::ostream& out) {
-      write_certificate(out, graph_certificate(scene, faces, found.components, found.trees));
-    });
-  }
-  if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
-  if (!arguments.html.empty()) write_page(scene, found, scope, arguments.html);
-  if (!arguments.mesh.empty()) write_mesh(scene, found.components, arguments.mesh);
-  std::optional<Clusters> clusters;
-  if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments, in_time);
-  std::vector<Pixel_image> images;
-  if (!arguments.pixels.size.empty())
-    images = images_of(scene, traits, faces, found.components, views, arguments, in_time);
-  Json result{{"scope", scope}, {"arcs", found.arcs ? Json(found.arcs->arc_count()) : Json()}};
-  if (!common.json.empty()) {
-    Json components = Json::array();
-    for (std::size_t c = 0; c < found.components.size(); ++c) {
-      Json& members = components.emplace_back(Json::array());
-      for (const std::uint32_t i : found.components[c]) members.push_back(name_json(scene, i));
-    }
-    result["components"] = std::move(components);
-    if (arguments.arcs) {
-      Json& list = result["arc_list"] = Json::array();
-      const Arc_graph& graph = found.arcs->boost_graph();
-      for (const auto& arc : boost::make_iterator_range(boost::edges(graph)))
-        list.push_back({name_json(scene, static_cast<std::uint32_t>(boost::source(arc, graph))),
-                        name_json(scene, static_cast<std::uint32_t>(boost::target(arc, graph)))});
-    }
+/// Writes the document of --json. Returns as write_json.
+bool write_result(const Graph_arguments& arguments, const Scene& scene, const Found& found,
+                  std::optional<Clusters>& clusters, const std::vector<Pixel_image>& images) {
+  Json result{{"scope", found.scope}, {"arcs", found.arcs ? Json(found.arcs->arc_count()) : Json()}};
+  if (!arguments.common.json.empty()) {
+    result["components"] = components_json(scene, found.components);
+    if (arguments.arcs) result["arc_list"] = arcs_json(scene, found.arcs->boost_graph());
   }
   Json counters = found.counters, seconds{{"components", found.component_seconds}, {"arcs", found.arc_seconds}};
   if (clusters) {
@@ -412,12 +289,47 @@ static Exit run(const Graph_arguments& arguments) {
     }
   }
   if (!images.empty()) result["images"] = app::to_json(images);
-  if (write_json(common, "graph", scene, std::move(result), counters, seconds)) return Exit::done;
-  print(scene, found, scope, arguments);
+  return write_json(arguments.common, "graph", scene, std::move(result), counters, seconds);
+}
+
+Exit run(const Graph_arguments& arguments) {
+  const Common& common = arguments.common;
+  const Viewpoints asked = viewpoints_of(arguments);
+  const std::vector<View> views = arguments.pixels.size.empty() ? std::vector<View>{} : read_views(arguments.pixels);
+  check_pictures(arguments, views.size());
+  const Scene scene(common.read());
+  const Report in_time = common.within_budget([](std::size_t, std::size_t) {});
+  const Exact_traits traits(scene);
+  const Faces faces(traits);
+
+  // 1. The graph.
+  const Found found = found_from(asked, faces, arguments, in_time);
+  if (!arguments.certificate.empty()) {
+    in_time(1, 1);  // no certificate once the budget is over
+    write_file(arguments.certificate, [&](std::ostream& out) {
+      write_certificate(out, graph_certificate(scene, faces, found.components, found.trees));
+    });
+  }
+  if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
+  if (!arguments.html.empty()) write_page(scene, found, arguments.html);
+  if (!arguments.mesh.empty()) write_mesh(scene, found.components, arguments.mesh);
+
+  // 2. What stands on it: clusters, and what pixels see.
+  std::optional<Clusters> clusters;
+  if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments, in_time);
+  std::vector<Pixel_image> images;
+  if (!arguments.pixels.size.empty())
+    images = images_of(scene, traits, faces, found.components, views, arguments, in_time);
+
+  // 3. What is told of both.
+  if (write_result(arguments, scene, found, clusters, images)) return Exit::done;
+  print(scene, found, arguments);
   if (clusters) print(*clusters, arguments);
   if (!images.empty()) print(images);
   return Exit::done;
 }
+
+}  // namespace
 
 void add_graph(Command program) {
   const Command command = program.add_command(

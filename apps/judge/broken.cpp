@@ -1,0 +1,156 @@
+#include "broken.h"
+
+#include "picture.h"
+
+#include <sightline/harness/laws/reduce.h>
+
+namespace sightline::app {
+
+namespace {
+
+using namespace judge;
+
+/// Whether a face has a corner twice.
+bool repeats_a_corner(const Polygon_soup& soup) {
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const auto loop = soup.loop(f);
+    std::set<Exact_point> corners;
+    for (const Point_id p : loop) corners.insert(soup.point(p));
+    if (corners.size() < loop.size()) return true;
+  }
+  return false;
+}
+
+/// Whether a case is broken as another one is: the same mark, and faces wrong in no way that is new.
+bool broken_alike(const Judged& judged, const Judged& broken) {
+  return judged.breaks && judged.mark == broken.mark &&
+         (judged.grade.wrong_visible.empty() || !broken.grade.wrong_visible.empty()) &&
+         (judged.grade.wrong_hidden.empty() || !broken.grade.wrong_hidden.empty());
+}
+
+}  // namespace
+
+Json explained(const Judge_arguments& arguments, const Judge_case& asked, const Judged& broken) {
+  const Explanation why = explain(asked.soup, asked.query, broken.answer, broken.grade,
+                                  arguments.court_options().contract, arguments.budget);
+  Json json{{"share", why.share}, {"share_words", why.share_words}, {"line", Json()}};
+  if (why.refutation) {
+    const Refutation& line = *why.refutation;
+    json["line"] = {{"face", line.face},
+                    {"from", point_json(line.from)},
+                    {"to", point_json(line.to)},
+                    {"by", line.by ? Json(*line.by) : Json()},
+                    {"words", line.words}};
+  }
+  json["picture"] = picture_of(asked.soup, asked.query, broken.grade, why);
+  return json;
+}
+
+void keep_picture(const Judge_arguments& arguments, Json& explained_case, const std::string& stem) {
+  if (arguments.keep.empty()) return;
+  const std::string file = (std::filesystem::path(arguments.keep) / (stem + ".svg")).string();
+  write_file(file, explained_case["explained"]["picture"].get<std::string>());
+  explained_case["files"].push_back(file);
+}
+
+Json made_smaller(const Judge_arguments& arguments, const Court& court, const Judge_case& asked, const Judged& broken) {
+  bool one_ray = false;  // as an eye and a direction
+  const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
+    Query query{asked.query.question, smaller.eye,           smaller.source,   asked.query.two_sided,
+                asked.query.rays,     asked.query.operation, asked.query.first};
+    if (one_ray) query = {query.question, {}, {}, false, {{smaller.eye, smaller.source.at(0)}}};
+    return case_of(smaller.soup, query, arguments.case_options());
+  };
+  const bool repeats = repeats_a_corner(asked.soup);
+  const auto fails = [&](const generate::Posed_scene& smaller) {
+    const Judge_case other = case_of_smaller(smaller);
+    return other.as_given && (repeats || !repeats_a_corner(other.soup)) &&
+           broken_alike(court.judge(other, broken.seed), broken);
+  };
+  Countdown time("reducing", arguments.reduce);
+  harness::Reduce_options options;
+  options.most_tests = 1000000;
+  options.out_of_time = [&] { return time.over(); };
+  generate::Posed_scene scene;
+  scene.soup = asked.soup;
+  scene.eye = asked.query.eye;
+  scene.source = asked.query.source;
+  // Of rays the first is kept that breaks the contract when asked alone.
+  for (const Wrong_ray& wrong : broken.grade.wrong_rays) {
+    generate::Posed_scene alone{scene};
+    alone.eye = asked.query.rays[wrong.ray].origin;
+    alone.source = {asked.query.rays[wrong.ray].direction};
+    one_ray = true;
+    one_ray = fails(alone);
+    if (!one_ray) continue;
+    scene = alone;
+    break;
+  }
+  const harness::Reduced reduced = harness::reduce(scene, fails, options);
+  const Judge_case left = case_of_smaller(reduced.scene);
+  const Judged last = court.judge(left, broken.seed);
+  const std::vector<std::string> files = court.keep_files(arguments.keep, "reduced");
+  Json json{
+      {"faces", last.faces},
+      {"runs", reduced.tests},
+      {"finished", reduced.finished},
+      {"mark", mark_names[static_cast<std::size_t>(last.mark)]},
+      {"why", last.why},
+      {"files", files},
+      {"again", command_again(arguments, "--scenes " + shell_word(files.at(0)) + " --ask " + shell_word(files.at(1)))}};
+  if (last.mark == Mark::wrong) {
+    json["explained"] = explained(arguments, left, last);
+    keep_picture(arguments, json, "reduced");
+  }
+  return json;
+}
+
+std::vector<std::string> guesses(const Judge_arguments& arguments, const Court& court, const Case_group& group,
+                                 const Judge_case& asked, const Judged& broken) {
+  std::vector<std::string> guesses;
+  for (const Reading reading : lists_faces(broken.answer) ? readings_of(asked.query.question) : std::vector<Reading>())
+    if (is_right(reading, asked.soup, asked.query, broken.answer, arguments.court_options().truth))
+      guesses.push_back("the answer is right read otherwise, " + words_of(reading, asked.query.two_sided));
+  std::vector<Neighbour> neighbours{{group.ulps, true}};
+  std::vector<std::int64_t> places{0};
+  for (const int bits : {0, 12, 22, 32, 44})  // one ulp, 2^-40, 2^-30, 2^-20 and 2^-8 of the size
+    for (const std::int64_t sign : {1, -1}) places.push_back(sign * (std::int64_t{1} << bits));
+  for (const std::int64_t place : places) {
+    if (place == group.ulps) continue;
+    const Judged moved = court.judge(group.moved(broken.seed, place), broken.seed);
+    if (moved.not_asked.empty() && (moved.mark == Mark::right || moved.mark == Mark::wrong))
+      neighbours.push_back({place, moved.mark == Mark::wrong});
+  }
+  if (neighbours.size() > 1) guesses.push_back(words_of(neighbours, group.exactly));
+  return guesses;
+}
+
+const std::vector<Reading>& Common_guess::add(const Judge_case& asked, const Judged& wrong,
+                                              const Truth_options& options, const std::vector<Reading>* kept) {
+  ++wrong_;
+  supported_ = supported_ || lists_faces(wrong.answer);
+  std::erase_if(readings_, [&](Reading reading) {
+    return kept != nullptr ? std::find(kept->begin(), kept->end(), reading) == kept->end()
+                           : !is_right(reading, asked.soup, asked.query, wrong.answer, options);
+  });
+  return readings_;
+}
+
+void Common_guess::add(const Kinds& kinds) {
+  kinds_.concave_right += kinds.concave_right;
+  kinds_.concave_wrong += kinds.concave_wrong;
+  kinds_.convex_right += kinds.convex_right;
+  kinds_.convex_wrong += kinds.convex_wrong;
+}
+
+std::vector<std::string> Common_guess::words() const {
+  std::vector<std::string> all;
+  for (const Reading reading : supported_ ? readings_ : std::vector<Reading>())
+    all.push_back(fmt::format("in {} the answer is right read otherwise, {}",
+                              wrong_ == 1 ? "the one wrong case" : fmt::format("all {} wrong cases", wrong_),
+                              words_of(reading, two_sided_)));
+  if (const std::string kinds = words_of(kinds_); !kinds.empty()) all.push_back(kinds);
+  return all;
+}
+
+}  // namespace sightline::app
