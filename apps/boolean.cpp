@@ -109,7 +109,7 @@ bool is_inside_out(const Polygon_soup& solid) {
 
 /// Whether a .qoff of a surface can be read by all commands.
 bool has_short_denominator(const Polygon_soup& soup) {
-  detail::Common_denominator common;  // as its reader asks
+  Common_denominator common;  // as its reader asks
   for (std::size_t k = 0; k < soup.coordinates.size(); ++k)
     if (!common.include(soup.coordinates[k].get_den())) return false;
   return true;

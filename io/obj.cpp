@@ -2,17 +2,62 @@
 
 #include <sightline/io/decimal.h>
 #include <sightline/io/exact_text.h>
+#include <sightline/io/format.h>
+#include <sightline/io/input.h>
+#include <sightline/io/text.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/quoted.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace sightline {
-namespace detail {
+namespace {
+
+/// Reads OBJ line by line. Statements are `v` and `f` (or `fo`, its old name); what only dresses them is passed over;
+/// anything else is an error, so that no surface is lost unseen.
+class Obj_reader {
+ public:
+  Obj_reader(const Input& input, const Read_options& options)
+      : text_(input, Text_reader::Comments::hash, Text_reader::Continuation::backslash), options_(options) {}
+
+  Polygon_soup read();
+
+ private:
+  /// v x y z, then nothing, w, r g b, or w r g b. The weight w bends only curves and surfaces, so it may only be 1.
+  void read_vertex();
+
+  /// f, then any number of v, v/vt, v//vn, v/vt/vn.
+  void read_face();
+
+  Point_id read_corner(std::string_view token);
+
+  /// Whether text is what may follow "v/": [vt] or [vt]/[vn]. The numbers themselves are of no interest.
+  static bool is_attributes(std::string_view text);
+
+  void check_ignored(std::string_view statement);
+
+  [[noreturn]] void fail_out_of_range(std::string_view token);
+
+  struct Forward {
+    std::int64_t index;
+    std::string_view token;
+  };
+
+  Text_reader text_;
+  const Read_options& options_;
+  Polygon_soup soup_;
+  std::vector<Point_id> corners_;
+  std::vector<Forward> forward_;
+};
 
 Polygon_soup Obj_reader::read() {
   while (text_.next_line()) {
@@ -87,7 +132,9 @@ void Obj_reader::fail_out_of_range(std::string_view token) {
                         ", counted from 1, or from -1 backwards");
 }
 
-}  // namespace detail
+}  // namespace
+
+Polygon_soup read_obj(const Input& input, const Read_options& options) { return Obj_reader(input, options).read(); }
 
 void write_obj(const Polygon_soup& soup, std::ostream& out) {
   check_no_holes(soup, "OBJ");

@@ -1,13 +1,26 @@
 #include <sightline/io/off.h>
 
+#include <sightline/io/decimal.h>
 #include <sightline/io/exact_text.h>
+#include <sightline/io/format.h>
+#include <sightline/io/input.h>
+#include <sightline/io/text.h>
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/quoted.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 #include <variant>
+#include <vector>
 
-namespace sightline::detail {
+namespace sightline {
 
 bool Common_denominator::include(const Integer& denominator) {
   if (bit_length(denominator) > largest_common_denominator_bits) return false;  // at once, however long it is
@@ -15,6 +28,42 @@ bool Common_denominator::include(const Integer& denominator) {
   if (!mpz_divisible_p(common_.get_mpz_t(), denominator.get_mpz_t())) common_ = lcm(common_, denominator);
   return bit_length(common_) <= largest_common_denominator_bits;
 }
+
+namespace {
+
+/// Reads OFF line by line: [OFF], the counts V F [E], V lines of points, F lines of faces.
+class Off_reader {
+ public:
+  Off_reader(const Input& input, Number_syntax syntax, const Read_options& options)
+      : text_(input, Text_reader::Comments::hash), syntax_(syntax), options_(options) {}
+
+  Polygon_soup read();
+
+ private:
+  /// Reads [ST][C][N][4][n]OFF, of which the last two and BINARY are refused, and gives the first count, which may
+  /// stand on its line or the next. As Geomview has it, the word may be missing.
+  std::string_view read_header();
+
+  void read_counts(std::string_view token);
+
+  void read_point(std::size_t i);
+
+  void read_face(std::size_t i);
+
+  /// Passes over at most so many numbers. Throws on any others.
+  void expect_end_of_line(int numbers);
+
+  [[noreturn]] void fail_cut_off(std::size_t found, std::size_t announced, const std::string& what);
+
+  Text_reader text_;
+  Number_syntax syntax_;
+  const Read_options& options_;
+  bool attributes_ = false;
+  std::size_t points_ = 0, faces_ = 0;
+  Common_denominator denominator_;
+  Polygon_soup soup_;
+  std::vector<Point_id> corners_;
+};
 
 Polygon_soup Off_reader::read() {
   read_counts(read_header());
@@ -133,4 +182,18 @@ void write_off(const Polygon_soup& soup, std::ostream& out, bool rational) {
   }
 }
 
-}  // namespace sightline::detail
+}  // namespace
+
+Polygon_soup read_off(const Input& input, const Read_options& options) {
+  return Off_reader(input, Number_syntax::decimal, options).read();
+}
+
+Polygon_soup read_qoff(const Input& input, const Read_options& options) {
+  return Off_reader(input, Number_syntax::rational, options).read();
+}
+
+void write_off(const Polygon_soup& soup, std::ostream& out) { write_off(soup, out, false); }
+
+void write_qoff(const Polygon_soup& soup, std::ostream& out) { write_off(soup, out, true); }
+
+}  // namespace sightline

@@ -13,10 +13,8 @@
 #include <limits>
 
 namespace sightline {
-namespace detail {
-
 std::optional<Format> format_of_content(const Input& input) {
-  if (has_binary_stl_size(input.bytes) || looks_like_stl_text(input)) return Format::stl;
+  if (is_stl(input)) return Format::stl;
   if (looks_like_quake_level(input.bytes)) return Format::bsp;
   if (looks_like_glb(input.bytes)) return Format::glb;
   Text_reader text(input, Text_reader::Comments::hash);
@@ -28,8 +26,6 @@ std::optional<Format> format_of_content(const Input& input) {
     if (word == statement) return Format::obj;
   return std::nullopt;
 }
-
-}  // namespace detail
 
 /// `neighbour`: as read_gltf() has it.
 static Polygon_soup read_beside(std::string_view bytes, Format format, const std::string& name,
@@ -66,7 +62,7 @@ Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& o
   const std::string bytes = read_bytes(path);
   const std::string name = path.string();
   std::optional<Format> format = format_of_ending(path);
-  if (!format) format = detail::format_of_content({name, bytes});
+  if (!format) format = format_of_content({name, bytes});
   if (!format)
     throw Input_error::of_file(
         name, std::string("neither its ending nor its content is of a known format; give one of ") + supported_formats +

@@ -12,12 +12,8 @@
 
 namespace sightline {
 
-namespace detail {
-
 /// The format that the bytes show, for a file whose ending says nothing; nothing where they show none.
 std::optional<Format> format_of_content(const Input& input);
-
-}  // namespace detail
 
 /// Reads a scene from bytes in a known format; `name` is what messages call it, and Polygon_soup::file.
 /// Throws Input_error on anything that is not well-formed. Faces of fewer than three corners and the like are

@@ -5,6 +5,8 @@
 
 namespace sightline {
 
+using Triple = std::array<double, 3>;  ///< a point or a vector in doubles
+
 /// a - b
 template <class Number>
 std::array<Number, 3> minus(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {

@@ -3,7 +3,7 @@
 #include <sightline/algorithms/bsp/traverse.h>
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/cutset/tracker.h>
-#include <sightline/algorithms/order_cuts.h>
+#include <sightline/algorithms/bsp/order_cuts.h>
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/line_drawing.h>
 #include <sightline/algorithms/priority/certificate.h>

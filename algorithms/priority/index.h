@@ -121,7 +121,6 @@ class Priority_index {
   }
 
  private:
-  using Triple = std::array<double, 3>;
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   static constexpr std::uint32_t leaf_size = 4;
   static constexpr double right_sign = -0.5;  // as slack: integers that are not positive are below 0.5

@@ -3,6 +3,7 @@
 
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/vectors.h>
 
 #include <array>
 #include <vector>
@@ -20,7 +21,6 @@ std::vector<Exact_point> positions(const Traits& traits, const Convex_polygon<Tr
 /// The plane through a viewpoint and two points, given by the vectors to them, in doubles that are each within a
 /// relative 2^-53.
 struct Rounded_plane {
-  using Triple = std::array<double, 3>;
   Triple normal, size;
   double lost;  ///< of what underflow may take, at a direction of size 1
 

@@ -165,7 +165,6 @@ class Region_relation {
             priority_detail::an_eye_may_see_over(grid_.faces[j], grid_.faces[i], grid_.points)};
   }
 
-  using Triple = std::array<double, 3>;
   /// From the viewpoint to the corners, each entry within a relative 2^-53; infinite where that is beyond doubles.
   std::vector<Triple> arms_of(const Grid_face& face) const {
     std::vector<Triple> arms;

@@ -61,7 +61,6 @@ template <class Traits>
 class Separation_finder {
  public:
   using Polygon = Convex_polygon<Traits>;
-  using Triple = std::array<double, 3>;
 
   /// Pre: the traits outlive it. Exact traits, or what kernels.h says.
   explicit Separation_finder(Traits&&) = delete;

@@ -4,6 +4,7 @@
 
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -50,8 +51,6 @@ class Near_frame {
   Integer divisor_;
   long exponent_, shift_;
 };
-
-using Triple = std::array<double, 3>;
 
 /// A point in homogeneous grid coordinates, the last one positive, reduced; and in doubles, each within a relative
 /// 2^-52 and 2^-1074, infinite beyond doubles.

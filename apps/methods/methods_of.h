@@ -4,7 +4,7 @@
 #include "methods.h"
 
 #include <sightline/algorithms/bsp/kernels.h>
-#include <sightline/algorithms/order_cuts.h>
+#include <sightline/algorithms/bsp/order_cuts.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/traits/lockstep_traits.h>
 #include <sightline/kernel/traits/point_traits.h>

@@ -40,7 +40,7 @@ Polygon_soup Scene_format::read(const std::string& file, const Read_options& opt
     throw Usage_error("--format is of standard input, and the endings of files say theirs: leave it out");
   if (file != "-") return read_scene(file, options);
   const std::string bytes = read_input(file), called = input_path(file).string();
-  std::optional<Format> format = detail::format_of_content({called, bytes});
+  std::optional<Format> format = format_of_content({called, bytes});
   for (const auto& [one, known] : format_names)
     if (name == one) format = known;
   if (!format) throw std::runtime_error(called + ": its content shows no format; say which with --format");

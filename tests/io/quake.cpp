@@ -286,9 +286,9 @@ TEST(Quake_bsp, cut_off_anywhere_it_is_an_error) {
 }
 
 TEST(Quake, levels_are_known_by_their_content_and_not_written) {
-  EXPECT_EQ(detail::format_of_content({"x", Tiny_level().bytes()}), bsp);
-  EXPECT_EQ(detail::format_of_content({"x", "// Game: Quake\n{\n}\n"}), map);
-  EXPECT_EQ(detail::format_of_content({"x", "{ }"}), map);
+  EXPECT_EQ(format_of_content({"x", Tiny_level().bytes()}), bsp);
+  EXPECT_EQ(format_of_content({"x", "// Game: Quake\n{\n}\n"}), map);
+  EXPECT_EQ(format_of_content({"x", "{ }"}), map);
   EXPECT_EQ(format_of_ending("a.MAP"), map);
   EXPECT_EQ(format_of_ending("a.geom.bsp"), bsp);
   std::ostringstream out;

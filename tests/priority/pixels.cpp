@@ -18,7 +18,6 @@ namespace {
 using test_scenes::least;
 using test_scenes::sample;
 
-using Triple = std::array<double, 3>;
 using Pixels = std::vector<std::vector<std::uint32_t>>;
 
 Exact_point exact_vector(const Triple& d) { return at(exact(d[0]), exact(d[1]), exact(d[2])); }

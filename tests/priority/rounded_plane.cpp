@@ -13,7 +13,6 @@ namespace {
 
 using namespace sightline;
 using priority_detail::Rounded_plane;
-using Triple = Rounded_plane::Triple;
 
 Exact_point exactly(const Triple& v) { return {exact(v[0]), exact(v[1]), exact(v[2])}; }
 

@@ -3,7 +3,7 @@
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/covering_of_scene.h>
-#include <sightline/algorithms/order_cuts.h>
+#include <sightline/algorithms/bsp/order_cuts.h>
 #include <sightline/algorithms/verify/order.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/exact_traits.h>

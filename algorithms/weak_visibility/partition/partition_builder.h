@@ -81,10 +81,19 @@ class Partition_builder {
   std::size_t root(std::size_t sector);
 
   void collect_cells(Light_partition& result);
+  void join_alike();
+  void measure_sectors();
+  void number_cells(Light_partition& result);
+  void measure_cells(Light_partition& result);
+  void name_edges(Light_partition& result) const;
+
+  void collect_borders(Light_partition& result);
+  void collect_arcs(Light_partition& result) const;
+  void collect_uprights(Light_partition& result) const;
+  void collect_strips(Light_partition& result) const;
 
   /// Once time is out it stays so: where candidates may be missing nothing is decided.
   bool is_over() { return is_over_ |= options_->out_of_time && options_->out_of_time(); }
-  void collect_borders(Light_partition& result);
 
   const Occluders* occluders_;
   const Partition_options* options_;
