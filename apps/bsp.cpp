@@ -20,7 +20,7 @@ static Exit run(const Bsp_arguments& arguments) {
   task.bsp.candidates = arguments.candidates;
   task.bsp.seed = common.seed;
   task.bsp.threads = common.threads;
-  task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  task.bsp.progress = common.within_budget(progress);
   const Outcome outcome = run_method(arguments.kernel, scene, task);
   progress.clear();
   const Bsp_counters& c = outcome.tree;

@@ -86,7 +86,7 @@ template <class Tracker, class Move>
 Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph,
                 const Path& path, const Tracker& tracker, Move move) {
   Progress progress("moving");
-  const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const auto report = arguments.common.within_budget(progress);
   const std::size_t every = (path.size + pictures_in_a_strip - 1) / pictures_in_a_strip,
                     in_page = frames_of_page(graph.scene().pieces().size()),
                     every_in_page = (path.size + in_page - 1) / in_page;

@@ -31,7 +31,7 @@ struct Fronts {
 
 /// By points spread evenly over the faces, and rays of which more go upright. In doubles: a sample, nothing is proved.
 /// `in_time` is called before each point.
-Fronts fronts_of(const Scene& scene, std::uint64_t seed, const std::function<void(std::size_t, std::size_t)>& in_time) {
+Fronts fronts_of(const Scene& scene, std::uint64_t seed, const Report& in_time) {
   const Occluders occluders(scene);
   const auto length = [](const Triple& a) { return std::sqrt(dot(a, a)); };
   // 1. Triangles of all pieces, by area.
@@ -115,7 +115,7 @@ static Exit run(const Common& common) {
   const Stopwatch watch;
   const Polygon_soup soup = common.read();
   const double reading = watch.seconds();
-  const auto in_time = common.within_budget([](std::size_t, std::size_t) {});
+  const auto in_time = common.within_budget();
   const Scene scene(soup);
   const double preparing = watch.seconds() - reading;
   in_time(0, 1);

@@ -337,7 +337,7 @@ static Exit run(const Order_arguments& arguments) {
   task.eye = eye;
   task.bsp.seed = common.seed;
   task.bsp.threads = common.threads;
-  task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  task.bsp.progress = common.within_budget(progress);
   if (arguments.by_graph() || arguments.skip_hidden) task.near = near;
   Found_order found = find_order(arguments, scene, task);
 

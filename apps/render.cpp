@@ -133,7 +133,7 @@ static Exit run(const Render_arguments& arguments) {
   Progress progress("drawing");
   Image_options options;
   options.threads = common.threads;
-  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  options.progress = common.within_budget(progress);
   const View view = aimed(arguments.view.view(eye, scene), scene);
   const Pixel_view pixels = pixel_view(view);
   const Rendered rendered = render(scene, view, arguments, options);

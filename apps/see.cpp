@@ -387,7 +387,7 @@ Exit run(const See_arguments& arguments) {
   Progress progress("looking");
   Visible_options options;
   options.threads = common.threads;
-  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  options.progress = common.within_budget(progress);
   const std::vector<Exact_point> field =
       arguments.frustum && scene.counters().faces > 0 ? corner_rays(view) : std::vector<Exact_point>();
   const bool corners = !common.json.empty() || !arguments.html.empty() || !arguments.mesh.empty();

@@ -33,7 +33,7 @@ struct Traced {
 template <class Find>
 void trace_all(const std::vector<Exact_ray>& rays, const Common& common, Traced& traced, Find find) {
   Progress progress("tracing");
-  const auto report = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const auto report = common.within_budget(progress);
   const Stopwatch watch;
   traced.hits.resize(rays.size());
   constexpr std::size_t block = 64;

@@ -133,7 +133,7 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
   Progress progress("verifying");
   Verify_options options;
   options.threads = common.threads;
-  options.progress = common.within_budget([](std::size_t, std::size_t) {});  // within a cell
+  options.progress = common.within_budget();  // within a cell
   Json rejected = Json::array();
 
   // 1. Cell by cell.
@@ -225,7 +225,7 @@ static Exit run(const Common& common, const std::string& file, const Solid_files
   Progress progress("verifying");
   Verify_options options;
   options.threads = common.threads;
-  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  options.progress = common.within_budget(progress);
   const Verdict verdict =
       of_solids ? verdict_on_solids(soup, common, file, files, options)
                 : std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);

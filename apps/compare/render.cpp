@@ -237,7 +237,7 @@ struct Image_trial : Trial {
     // 1. What all are compared with; on one thread, since processes are made after it.
     Image_options alone;
     alone.threads = 1;
-    alone.progress = arguments.common.within_budget([](std::size_t, std::size_t) {});
+    alone.progress = arguments.common.within_budget();
     if (transparent) truth.blended = blended_centres(view, pixels, tints, alone);
     else truth.pieces = centres(view, pixels, alone);
     if (!transparent) {

@@ -142,7 +142,7 @@ struct See_trial : Trial {
   static Visible_options alone(const Common& common) {
     Visible_options options;
     options.threads = 1;
-    options.progress = common.within_budget([](std::size_t, std::size_t) {});
+    options.progress = common.within_budget();
     return options;
   }
 };

@@ -4,7 +4,6 @@
 #include "../support/pixels.h"
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,8 +17,6 @@ struct Graph_arguments {
   Pixel_arguments pixels;
   bool wants_tree() const { return tree || split || codes || two_sided; }
 };
-
-using Report = std::function<void(std::size_t done, std::size_t all)>;
 
 /// One budget for all that a command does, whatever it shows of it.
 inline Report shown(const Report& in_time, Progress& progress) {

@@ -129,7 +129,7 @@ Exit run_along(const Common& common, const Along_arguments& arguments) {
   options.two_sided = arguments.two_sided;
   options.with_proofs = !arguments.certificate.empty();
   options.threads = common.threads;
-  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  options.progress = common.within_budget(progress);
   const Visible_along found = visible_along(occluders, path[0], path[1], options);
   const double seconds = watch.seconds();
   progress.clear();

@@ -41,7 +41,7 @@ struct Weak_task {
   std::size_t rays = 100000;                    ///< sample
   bool surfaces = false;                        ///< events: whether to keep them
   std::function<bool()> out_of_time;            ///< lines, events: what they have no time for stays open
-  std::function<void(std::size_t done, std::size_t all)> progress;
+  Report progress;
 };
 
 struct Weak_outcome {

@@ -1,5 +1,7 @@
 #include "answers.h"
 
+#include <sightline/io/input.h>
+
 #include <algorithm>
 #include <memory>
 #include <utility>

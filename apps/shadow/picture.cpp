@@ -313,7 +313,7 @@ std::size_t draw(const Shadow_arguments& arguments, const Scene& scene, const Pi
     const Camera camera(view);
     Visible_options options;
     options.threads = arguments.common.threads;
-    options.progress = arguments.common.within_budget([](std::size_t, std::size_t) {});
+    options.progress = arguments.common.within_budget();
     std::vector<Shown> shown = seen_parts(scene, boxes, eye, camera, options);
     whole = static_cast<std::size_t>(
         std::count_if(shown.begin(), shown.end(), [](const Shown& one) { return one.is_small; }));

@@ -100,7 +100,7 @@ std::vector<Shadows> shadows_of(const Shadow_arguments& arguments, const Scene& 
     Shadow_options options;
     options.two_sided = arguments.two_sided;
     options.threads = arguments.common.threads;
-    options.progress = arguments.common.within_budget([&](std::size_t done, std::size_t of) { progress(done, of); });
+    options.progress = arguments.common.within_budget(progress);
     all.push_back(shadows(light.view(scene), boxes, options));
   }
   return all;
@@ -118,7 +118,7 @@ Told_volume write_volume(const Shadow_arguments& arguments, const Scene& scene, 
   const Stopwatch since;
   Shadow_volume made;
   Progress progress("the space in shadow");
-  const auto report = common.within_budget([&](std::size_t done, std::size_t of) { progress(done, of); });
+  const auto report = common.within_budget(progress);
   run_with_threads(common.threads, [&] {
     made = light.is_sun ? shadow_volume(scene, Sun{light.at}, report) : shadow_volume(scene, light.at, report);
   });

@@ -80,12 +80,15 @@ void Common::add_to(Command of) {
       .show_default();
 }
 
-std::function<void(std::size_t, std::size_t)> Common::within_budget(
-    std::function<void(std::size_t, std::size_t)> report) const {
+Report Common::within_budget(Report report) const {
   return [report = std::move(report), limit = Time_limit(budget)](std::size_t done, std::size_t all) {
     if (limit.is_over()) throw Out_of_budget(fmt::format("undecided: the budget of {} s ran out", limit.seconds()));
-    report(done, all);
+    if (report) report(done, all);
   };
+}
+
+Report Common::within_budget(Progress& bar) const {
+  return within_budget([&bar](std::size_t done, std::size_t all) { bar(done, all); });
 }
 
 Polygon_soup Common::read() const {

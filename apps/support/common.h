@@ -14,10 +14,15 @@
 #include <nlohmann/json.hpp>
 
 #include <atomic>
+#include <functional>
 
 namespace sightline::app {
 
 using Json = nlohmann::ordered_json;
+
+/// How far work is, which it tells; what this throws ends it.
+using Report = std::function<void(std::size_t done, std::size_t all)>;
+class Progress;
 
 /// A scene of a file, or of standard input, and what that is: option --format.
 struct Scene_format {
@@ -45,9 +50,10 @@ struct Common {
 
   void add_to(Command of);
   Polygon_soup read() const;
-  /// A progress callback that throws Out_of_budget once the seconds are over.
-  std::function<void(std::size_t, std::size_t)> within_budget(
-      std::function<void(std::size_t, std::size_t)> report) const;
+  /// What work tells, which ends it by Out_of_budget once the seconds are over, from now on: with a bar, which outlives
+  /// it.
+  Report within_budget(Report report = {}) const;
+  Report within_budget(Progress& bar) const;
 };
 
 /// Numbers with commas between them, exact decimals or p/q. Errors: Usage_error that begins with `wanted`.

@@ -121,7 +121,7 @@ Level_cells cells_of(const Common& common, const Polygon_soup& soup, const Divis
   options.seed = division.seed;
   options.threads = common.threads;
   options.tree = division.tree;
-  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  options.progress = common.within_budget(progress);
   return Level_cells(soup, options);
 }
 

@@ -3,6 +3,7 @@
 #include "limited_process.h"
 
 #include <sightline/harness/compare/process_memory.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <fcntl.h>
 #include <signal.h>
@@ -149,7 +150,7 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
   }
 
   // 2. Wait, and look at its memory now and then.
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   Process_end end;
   bool killed = false;
   int status = 0;
@@ -157,7 +158,7 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
   auto pause = std::chrono::microseconds(100);
   while (wait4(child, &status, WNOHANG, &usage) == 0) {
     end.bytes = std::max(end.bytes, memory_of(child));
-    end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    end.seconds = watch.seconds();
     if (end.seconds > limits.seconds || end.bytes > limits.bytes) {
       end.kind = end.bytes > limits.bytes ? Process_end::out_of_memory : Process_end::timed_out;
       killed = true;
@@ -168,7 +169,7 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, std::chrono::microseconds(2000));
   }
-  end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  end.seconds = watch.seconds();
   kill(-child, SIGKILL);  // what it left running
 
   // 3. What became of it. The system's own figure is of use where it is above what this process had when it forked.

@@ -64,7 +64,7 @@ static std::vector<std::optional<Own_tint>> own_tints(const Tint_arguments& argu
 }
 
 std::vector<Tint> tints_of(const Tint_arguments& arguments, const std::string& scene_file, const Exact_view& view,
-                           bool lit, const std::function<void(std::size_t, std::size_t)>& progress) {
+                           bool lit, const Report& progress) {
   const Scene& scene = view.scene();
   const std::vector<std::optional<Own_tint>> own = own_tints(arguments, scene_file, scene);
   std::vector<Tint> tints;

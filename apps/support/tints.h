@@ -26,7 +26,7 @@ struct Tint_arguments {
 /// The tint of each piece as the eye sees it, lighter towards the light where they are lit. Errors: Usage_error for
 /// materials of what is no OBJ; Input_error for files, also where a list has fewer or more lines than there are faces.
 std::vector<Tint> tints_of(const Tint_arguments& arguments, const std::string& scene_file, const Exact_view& view,
-                           bool lit, const std::function<void(std::size_t, std::size_t)>& progress = {});
+                           bool lit, const Report& progress = {});
 /// Whether any of them lets something through.
 bool is_transparent(const std::vector<Tint>& tints);
 

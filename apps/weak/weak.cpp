@@ -60,7 +60,7 @@ void check_usage(const Weak_arguments& arguments) {
 }
 
 /// What the method is asked, its budget from now on: some leave open what they have no time for, others end.
-Weak_task task_of(const Weak_arguments& arguments, const std::function<void(std::size_t, std::size_t)>& report) {
+Weak_task task_of(const Weak_arguments& arguments, const Report& report) {
   const Common& common = arguments.common;
   Weak_task task = arguments.task;
   task.two_sided = arguments.sources.two_sided;
