@@ -89,11 +89,11 @@ std::string_view Off_reader::read_header() {
     return true;
   };
   for (const std::string_view prefix : {"ST", "C", "N"}) attributes_ = skip(prefix) || attributes_;
-  const bool four = skip("4"), many = skip("n");
+  const bool has_four = skip("4"), has_more = skip("n");
   if (kind != "OFF")
     text_.fail(word, "unknown header " + quoted(word) +
                          "; begin the file with a line OFF, then the counts of vertices, faces and edges");
-  if (four || many)
+  if (has_four || has_more)
     text_.fail(word, "points of " + quoted(word) + " are not of three dimensions; project them to OFF first");
   std::string_view token = text_.next_token();
   if (token == "BINARY") text_.fail(token, "binary OFF is not supported; convert the file to text, or to binary PLY");

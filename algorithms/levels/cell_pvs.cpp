@@ -22,8 +22,10 @@ using levels_detail::Ways;
 
 namespace {
 
-// Random lines out of a cell: so many at once, until some round finds no cell, or after so many rounds.
-constexpr std::size_t lines_at_once = 32, most_rounds = 64;
+// Random lines out of a cell: so many at once, until a turn finds no cell, or after so many turns.
+constexpr std::size_t lines_at_once = 32, most_turns = 64;
+// Cells whose floods go on at once, a quarter of those that ended: few, as they find again what they could be told.
+constexpr std::size_t least_round = 8, most_in_round = 64;
 
 /// A point of a polygon's inside, more often near corners than a mean of equal weights.
 Triple point_within(const Near_polygon& polygon, std::mt19937_64& dice) {
@@ -53,20 +55,21 @@ class Cell_pvs_search::Maker {
         is_done_(count_) {}
 
   Cell_pvs make(std::uint32_t shard, std::uint32_t shards) {
-    // 1. Floods, lower cells first: they tell the others.
+    // 1. Floods, lower cells first, in rounds: those of a round tell the later ones, and not each other, so that what
+    // is searched is the same at any number of threads.
     std::vector<Cell_id> own;
     for (Cell_id c = shard; c < count_; c += shards)
       if (is_asked(c)) own.push_back(c);
-    std::atomic<std::size_t> next{0}, done{0};
+    std::atomic<std::size_t> done{0};
     run_with_threads(options_.threads, [&] {
-      parallel_for(own.size(), [&](std::size_t) {
-        const Cell_id cell = own[next++];
-        if (!is_done_[cell].load(std::memory_order_acquire)) {
-          flood(cell);
-          is_done_[cell].store(true, std::memory_order_release);
-        }
-        if (options_.progress) options_.progress(++done, own.size());
-      });
+      for (std::size_t begin = 0, end = 0; begin < own.size(); begin = end) {
+        end = std::min(own.size(), begin + std::clamp(begin / 4, least_round, most_in_round));
+        parallel_for(end - begin, [&](std::size_t k) {
+          if (!is_done_[own[begin + k]]) flood(own[begin + k]);
+          if (options_.progress) options_.progress(++done, own.size());
+        });
+        for (std::size_t k = begin; k < end; ++k) is_done_[own[k]] = true;
+      }
     });
 
     // 2. Both halves.
@@ -139,11 +142,11 @@ class Cell_pvs_search::Maker {
 
   bool is_asked(Cell_id cell) const { return ways_.is_asked()[cell] != 0; }
 
-  /// What floods that have ended say of a pair.
+  /// What floods of earlier rounds say of a pair.
   Known told(Cell_id a, Cell_id b) const {
     if (a == b) return Known::is_visible;
     if (a > b) std::swap(a, b);
-    if (!is_done_[a].load(std::memory_order_acquire)) return Known::nothing;
+    if (!is_done_[a]) return Known::nothing;
     const Column& column = columns_[a];
     if (std::binary_search(column.visible.begin(), column.visible.end(), b)) return Known::is_visible;
     const bool open = std::binary_search(column.undecided.begin(), column.undecided.end(), b);
@@ -195,7 +198,7 @@ class Cell_pvs_search::Maker {
   void see_along_lines(Flood& flood) const {
     std::mt19937_64 dice(options_.search.seed * 0x9e3779b97f4a7c15u + flood.cell);
     const std::vector<std::size_t>& first = ways_.into(flood.cell);
-    for (std::size_t round = 0; round < most_rounds && !first.empty(); ++round) {
+    for (std::size_t turn = 0; turn < most_turns && !first.empty(); ++turn) {
       const std::size_t before = flood.counters.by_lines;
       for (std::size_t k = 0; k < lines_at_once; ++k) {
         const std::size_t back = first[dice() % first.size()];
@@ -335,7 +338,7 @@ class Cell_pvs_search::Maker {
   Ways ways_;
   Cell_id count_;
   std::vector<Column> columns_;
-  std::vector<std::atomic<bool>> is_done_;
+  std::vector<bool> is_done_;
 };
 
 Cell_pvs mutually_visible_cells(const Level_cells& level, const Pvs_options& options) {

@@ -21,7 +21,7 @@ struct Cell_pvs_counters {
   std::size_t adjacent = 0;              ///< of these, with a portal between them
   std::size_t by_lines = 0;              ///< along random lines through portals
   std::size_t extended = 0;              ///< along a sightline of another pair's, made longer
-  std::size_t told = 0;                  ///< pairs that another cell's flood had decided when they were needed again
+  std::size_t told = 0;                  ///< pairs that an earlier cell's flood had decided when they were needed again
   std::size_t searched = 0, hidden = 0;  ///< pairs of portals that were searched; that were found hidden
   std::size_t implied = 0;               ///< pairs of portals hidden since cells beside them are
   std::size_t unreached = 0;             ///< pairs that no search was needed for: hidden from all neighbours

@@ -37,6 +37,18 @@ TEST_F(Levels, cells_are_counted_and_written) {
   EXPECT_EQ(portals, result["portals"]);
 }
 
+TEST_F(Levels, of_faces_and_cells_take_the_same_work_at_any_number_of_threads) {
+  Json first;
+  for (const char* threads : {"1", "2", "4", "2", "8", "4"}) {
+    const Outcome r = run({"pvs", rooms, "--cells-too", "--threads", threads, "--json", "-"});
+    ASSERT_EQ(r.code, done) << r;
+    Json said = r.json();
+    said.erase("seconds");
+    if (first.is_null()) first = said;
+    EXPECT_EQ(said, first) << threads << " threads";
+  }
+}
+
 TEST_F(Levels, cells_of_a_file_have_the_table_of_how_they_were_made) {
   const std::string cells = out("cells.json"), house = (corpus / "general" / "two_rooms.off").string();
   const std::vector<std::vector<std::string>> ways{{},
