@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -50,6 +51,37 @@ class Box_tree {
     Box box;
     std::uint32_t first, last;  // pieces order_[first, last)
     std::uint32_t right;        // its second child, the first being the next node; 0: a leaf
+    std::uint32_t leaf;         // its place in leaves_, if it is one
+  };
+  /// Two numbers that are compared at once, and what comes of it: all bits, or none.
+  using Two = double __attribute__((vector_size(16)));
+  using Two_masks = std::int64_t __attribute__((vector_size(16)));
+  /// The boxes of a leaf, axis by axis, two together, so that one box is compared with all of them. Places that are
+  /// left have none, which is apart from all.
+  struct Leaf_boxes {
+    std::array<std::array<Two, leaf_size / 2>, 3> low, high;
+
+    Box operator[](std::size_t place) const {
+      Box box;
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = low[k][place / 2][place % 2];
+        box.high[k] = high[k][place / 2][place % 2];
+      }
+      return box;
+    }
+    /// Bit k: whether the box meets box k.
+    unsigned meeting(const Box& box) const {
+      Two_masks apart{};
+      for (std::size_t pair = 0; pair < leaf_size / 2; ++pair) {
+        Two_masks is_apart{};
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Two box_low{box.low[k], box.low[k]}, box_high{box.high[k], box.high[k]};
+          is_apart |= (low[k][pair] > box_high) | (box_low > high[k][pair]);
+        }
+        apart |= is_apart & Two_masks{std::int64_t{1} << (2 * pair), std::int64_t{2} << (2 * pair)};
+      }
+      return static_cast<unsigned>(~(apart[0] | apart[1])) & ((1u << leaf_size) - 1);
+    }
   };
   /// A piece as it is sorted: twice the centre of its box.
   struct Centre {
@@ -60,7 +92,8 @@ class Box_tree {
              std::uint32_t last);
   static void halve(std::span<Centre> centres, std::span<Centre> room, std::size_t axis, double low, double high);
 
-  std::vector<Box> boxes_;            // by place in order_
+  std::vector<Box> boxes_;            // by piece, while the tree is made
+  std::vector<Leaf_boxes> leaf_boxes_;
   std::vector<std::uint32_t> order_;  // pieces
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> leaves_;  // nodes
@@ -70,9 +103,10 @@ template <class Visit>
 void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
   // 1. Pairs in the leaf.
   const Node& own = nodes_[leaves_[leaf]];
+  const Leaf_boxes& boxes = leaf_boxes_[leaf];
   for (std::uint32_t i = own.first; i < own.last; ++i)
-    for (std::uint32_t j = i + 1; j < own.last; ++j)
-      if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+    for (unsigned met = boxes.meeting(boxes[i - own.first]) & (~1u << (i - own.first)); met != 0; met &= met - 1)
+      visit(order_[i], order_[own.first + static_cast<std::uint32_t>(std::countr_zero(met))]);
   // 2. What is on the right of the way down to it has the later leaves; the least of them comes last on the stack.
   std::uint32_t stack[64];
   std::size_t size = 0;
@@ -95,10 +129,11 @@ void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
       stack[size++] = at + 1;
       continue;
     }
-    for (std::uint32_t i = own.first; i < own.last; ++i) {
-      if (!boxes_[i].meets(node.box)) continue;
-      for (std::uint32_t j = node.first; j < node.last; ++j)
-        if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+    const Leaf_boxes& others = leaf_boxes_[node.leaf];
+    for (unsigned near = boxes.meeting(node.box); near != 0; near &= near - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
+      for (unsigned met = others.meeting(boxes[i]); met != 0; met &= met - 1)
+        visit(order_[own.first + i], order_[node.first + static_cast<std::uint32_t>(std::countr_zero(met))]);
     }
   }
 }
@@ -123,8 +158,9 @@ void Box_tree::for_each_along(const std::array<double, 3>& from, std::size_t axi
       stack[size++] = at + 1;
       continue;
     }
+    const Leaf_boxes& boxes = leaf_boxes_[node.leaf];
     for (std::uint32_t i = node.first; i < node.last; ++i)
-      if (is_on_way(boxes_[i])) visit(order_[i]);
+      if (is_on_way(boxes[i - node.first])) visit(order_[i]);
   }
 }
 

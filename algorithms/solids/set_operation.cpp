@@ -107,7 +107,7 @@ Set_result set_operation(const Operands& given, const Set_options& options) {
     };
   };
   Set_result result;
-  Operands operands = given;  // with the edges of pieces that are asked for them
+  Operands operands = given.with_room_for_edges();  // of pieces that are asked for them
   const auto pieces = static_cast<std::uint32_t>(operands.pieces().size());
 
   // 1. What meets what.
