@@ -31,8 +31,11 @@ class Box_tree {
 
   /// Leaves, in which pieces that are near to each other stand together.
   std::size_t leaf_count() const { return leaves_.size(); }
-  /// Calls visit(i, j) once for each pair of different pieces whose boxes meet, one of them in the leaf and the other
-  /// in it or in a later one. Thread-safe. Cost: O(log n + pairs) if boxes are small.
+  /// Pieces in the order of the leaves: what pairs are told in.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+  /// Calls visit(i, j, met) with places in order(), so that each pair of different pieces whose boxes meet, one of them
+  /// in the leaf and the other in it or in a later one, comes once: of place i with j + k for each bit k of `met`.
+  /// Thread-safe. Cost: O(log n + pairs) if boxes are small.
   template <class Visit>
   void for_each_pair(std::size_t leaf, Visit visit) const;
 
@@ -92,7 +95,7 @@ class Box_tree {
              std::uint32_t last);
   static void halve(std::span<Centre> centres, std::span<Centre> room, std::size_t axis, double low, double high);
 
-  std::vector<Box> boxes_;            // by piece, while the tree is made
+  std::vector<Box> boxes_;  // by piece, while the tree is made
   std::vector<Leaf_boxes> leaf_boxes_;
   std::vector<std::uint32_t> order_;  // pieces
   std::vector<Node> nodes_;
@@ -105,8 +108,8 @@ void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
   const Node& own = nodes_[leaves_[leaf]];
   const Leaf_boxes& boxes = leaf_boxes_[leaf];
   for (std::uint32_t i = own.first; i < own.last; ++i)
-    for (unsigned met = boxes.meeting(boxes[i - own.first]) & (~1u << (i - own.first)); met != 0; met &= met - 1)
-      visit(order_[i], order_[own.first + static_cast<std::uint32_t>(std::countr_zero(met))]);
+    if (const unsigned met = boxes.meeting(boxes[i - own.first]) & (~1u << (i - own.first)); met != 0)
+      visit(i, own.first, met);
   // 2. What is on the right of the way down to it has the later leaves; the least of them comes last on the stack.
   std::uint32_t stack[64];
   std::size_t size = 0;
@@ -132,8 +135,7 @@ void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
     const Leaf_boxes& others = leaf_boxes_[node.leaf];
     for (unsigned near = boxes.meeting(node.box); near != 0; near &= near - 1) {
       const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
-      for (unsigned met = others.meeting(boxes[i]); met != 0; met &= met - 1)
-        visit(order_[own.first + i], order_[node.first + static_cast<std::uint32_t>(std::countr_zero(met))]);
+      if (const unsigned met = others.meeting(boxes[i]); met != 0) visit(own.first + i, node.first, met);
     }
   }
 }

@@ -132,6 +132,7 @@ std::vector<Operand_flaw> flaws(const Operands& operands) {
 
   // 2. Edges of each operand that have as many opposites as equals cancel.
   std::vector<Edge_use> edges;
+  if (!operands.pieces().empty()) edges.reserve(operands.pieces().back().first + operands.pieces().back().size);
   for (std::size_t i = 0; i < operands.pieces().size(); ++i) {
     const std::span<const Piece_corner> corners = operands.corners(i);
     for (std::size_t k = 0; k < corners.size(); ++k) {

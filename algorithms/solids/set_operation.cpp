@@ -160,6 +160,7 @@ Set_result set_operation(const Operands& given, const Set_options& options) {
   std::vector<std::pair<std::uint32_t, Fragment_mark>> marks;
   std::size_t fragments = 0;
   std::vector<std::uint32_t> head_place(pieces);
+  kept.reserve(pieces);
   for (std::uint32_t h = 0; h < heads.size(); ++h) head_place[heads[h]] = h;
   for (std::uint32_t i = 0, t = 0; i < pieces; ++i) {
     if (options.keep_fragments) stage(1)(1, 1);  // their points take long
