@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -142,27 +143,23 @@ void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
 
 template <class Visit>
 void Box_tree::for_each_along(const std::array<double, 3>& from, std::size_t axis, bool upwards, Visit visit) const {
-  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const auto is_on_way = [&](const Box& box) {
-    const unsigned within_u = unsigned{box.low[u] <= from[u]} & unsigned{from[u] <= box.high[u]};
-    const unsigned within_v = unsigned{box.low[v] <= from[v]} & unsigned{from[v] <= box.high[v]};
-    return (within_u & within_v) != 0 && (upwards ? from[axis] <= box.high[axis] : box.low[axis] <= from[axis]);
-  };
+  Box way{from, from};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  (upwards ? way.high : way.low)[axis] = upwards ? infinity : -infinity;
   std::uint32_t stack[64];
   std::size_t size = 0;
   if (!nodes_.empty()) stack[size++] = 0;
   while (size > 0) {
     const std::uint32_t at = stack[--size];
     const Node& node = nodes_[at];
-    if (!is_on_way(node.box)) continue;
+    if (!node.box.meets(way)) continue;
     if (node.right != 0) {
       stack[size++] = node.right;
       stack[size++] = at + 1;
       continue;
     }
-    const Leaf_boxes& boxes = leaf_boxes_[node.leaf];
-    for (std::uint32_t i = node.first; i < node.last; ++i)
-      if (is_on_way(boxes[i - node.first])) visit(order_[i]);
+    for (unsigned met = leaf_boxes_[node.leaf].meeting(way); met != 0; met &= met - 1)
+      visit(order_[node.first + static_cast<std::uint32_t>(std::countr_zero(met))]);
   }
 }
 

@@ -27,6 +27,13 @@ struct Near_pair {
   bool has_common, has_edge;  ///< common points; both ends of an edge
 };
 
+/// An edge that two pieces have in common, with both ends.
+struct Common_edge {
+  std::uint32_t i, j;  ///< the pieces
+  std::uint32_t k, l;  ///< the edges' first corners, counted on through all pieces
+  bool is_against;     ///< whether they run against each other
+};
+
 /// What is found of some leaves' pairs.
 struct Leaf_contacts {
   std::vector<Near_pair> near;
@@ -34,8 +41,7 @@ struct Leaf_contacts {
   std::vector<Touch> touches;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> upon;
   std::vector<std::uint32_t> touched;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  ///< corners whose edges have both ends in common
-  std::vector<std::uint8_t> against;                           ///< whether these run against each other
+  std::vector<Common_edge> edges;
   std::size_t pairs = 0;
   Predicate_counts predicates;
 };
@@ -135,8 +141,8 @@ class Pair_filter {
         const std::size_t l0 = l == 0 ? b.size() - 1 : l - 1;
         const bool with = a.point[k1] == b.point[l1], against = a.point[k1] == b.point[l0];
         if (!with && !against) continue;
-        found_.edges.emplace_back(p.first + k, q.first + (with ? l : l0));
-        found_.against.push_back(against);
+        found_.edges.push_back({p.piece, q.piece, p.first + static_cast<std::uint32_t>(k),
+                                q.first + static_cast<std::uint32_t>(with ? l : l0), against});
         // In different planes they share the line of the edge, and of that line each has no more than the edge.
         if (!coplanar) return;
         pair.has_edge = true;
@@ -158,8 +164,8 @@ class Pair_filter {
       const std::size_t k = missing(in_row(0) | in_row(1) | in_row(2));
       const std::size_t l = missing((which | which >> 3 | which >> 6) & 7);
       const std::size_t from = k == 2 ? 0 : k + 1, of_other = l == 2 ? 0 : l + 1;
-      found_.edges.emplace_back(a.first + from, b.first + of_other);
-      found_.against.push_back(a.point[from] != b.point[of_other]);
+      found_.edges.push_back({a.piece, b.piece, a.first + static_cast<std::uint32_t>(from),
+                              b.first + static_cast<std::uint32_t>(of_other), a.point[from] != b.point[of_other]});
       return;
     }
     const std::size_t common = which != 0;
@@ -477,12 +483,9 @@ Contacts contacts(Operands& operands, const Box_tree& tree,
   all.first_upon = gathered(found, &Leaf_contacts::upon, pieces, all.upon, [](const auto& p) { return p.first; });
   all.touched.resize(pieces);
   std::vector<std::uint8_t> edges(pieces == 0 ? 0 : operands.pieces().back().first + operands.pieces().back().size);
-  std::vector<std::uint32_t> piece_of(edges.size());
-  for (std::uint32_t i = 0; i < pieces; ++i)
-    std::fill_n(piece_of.begin() + operands.pieces()[i].first, operands.pieces()[i].size, i);
   for (const Leaf_contacts& leaf : found) {
     for (const std::uint32_t i : leaf.touched) all.touched[i] = true;
-    for (const auto& [k, l] : leaf.edges) {
+    for (const auto& [i, j, k, l, is_against] : leaf.edges) {
       edges[k] = static_cast<std::uint8_t>(std::min(2, edges[k] + 1));
       edges[l] = static_cast<std::uint8_t>(std::min(2, edges[l] + 1));
     }
@@ -491,12 +494,9 @@ Contacts contacts(Operands& operands, const Box_tree& tree,
   }
   // 4. Edges of two pieces alone.
   for (const Leaf_contacts& leaf : found)
-    for (std::size_t e = 0; e < leaf.edges.size(); ++e) {
-      const auto [k, l] = leaf.edges[e];
-      if (leaf.against[e] != 0 && edges[k] == 1 && edges[l] == 1 && !all.touched[piece_of[k]] &&
-          !all.touched[piece_of[l]])
-        all.joined.emplace_back(k, l);
-    }
+    for (const auto& [i, j, k, l, is_against] : leaf.edges)
+      if (is_against && edges[k] == 1 && edges[l] == 1 && !all.touched[i] && !all.touched[j])
+        all.joined.emplace_back(i, j);
   return all;
 }
 

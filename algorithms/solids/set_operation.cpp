@@ -117,12 +117,7 @@ Set_result set_operation(const Operands& given, const Set_options& options) {
 
   // 2. Pieces that meet no other, in patches; each of them has the winding numbers of its least piece.
   Patches patches(pieces);
-  std::vector<std::uint32_t> piece_of(
-      found.joined.empty() ? 0 : operands.pieces().back().first + operands.pieces().back().size);
-  if (!piece_of.empty())
-    for (std::uint32_t i = 0; i < pieces; ++i)
-      std::fill_n(piece_of.begin() + operands.pieces()[i].first, operands.pieces()[i].size, i);
-  for (const auto& [k, l] : found.joined) patches.join(piece_of[k], piece_of[l]);
+  for (const auto& [i, j] : found.joined) patches.join(i, j);
   std::vector<std::uint32_t> touched, heads;
   for (std::uint32_t i = 0; i < pieces; ++i) {
     if (found.touched[i]) touched.push_back(i);
