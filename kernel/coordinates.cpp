@@ -1,5 +1,6 @@
 #include <sightline/kernel/coordinates.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -34,6 +35,12 @@ void Coordinates::push_double(double value) {
 
 void Coordinates::push_ratio(std::int64_t numerator, std::int64_t denominator) {
   const auto unsigned_of = [](std::int64_t n) { return static_cast<std::uint64_t>(n); };
+  if (std::has_single_bit(unsigned_of(denominator))) {  // divisions take long
+    const int fine = std::countr_zero(unsigned_of(denominator));
+    const int zeros = numerator == 0 ? fine : std::min(fine, std::countr_zero(unsigned_of(numerator)));
+    entries_.push_back({numerator >> zeros, two_five_denominator(fine - zeros, 0)});
+    return;
+  }
   const std::uint64_t magnitude = numerator < 0 ? 0 - unsigned_of(numerator) : unsigned_of(numerator);
   const auto common = static_cast<std::int64_t>(std::gcd(magnitude, unsigned_of(denominator)));
   numerator /= common;

@@ -6,6 +6,25 @@
 
 namespace sightline {
 
+namespace {
+
+/// As std::gcd, without a branch on which of two odd numbers is the greater, which no processor can predict.
+std::uint64_t common_divisor(std::uint64_t a, std::uint64_t b) {
+  if (a == 0 || b == 0) return a | b;
+  const int twos = std::countr_zero(a | b);
+  a >>= std::countr_zero(a);
+  b >>= std::countr_zero(b);
+  while (a != b) {
+    const std::uint64_t step = a - b;
+    const std::uint64_t mask = 0 - std::uint64_t{a < b};  // all ones where the step is negative
+    a = b + (step & mask);
+    b = ((step ^ mask) - mask) >> std::countr_zero(step);
+  }
+  return a << twos;
+}
+
+}  // namespace
+
 std::uint32_t Grid_points::intern(const std::array<Integer, 3>& p) {
   std::vector<Limb> row(rows_.stride());
   for (std::size_t k = 0; k < 3; ++k) to_limbs(p[k], &row[k * static_cast<std::size_t>(limbs_per_)], limbs_per_);
@@ -64,15 +83,16 @@ Plane Plane_table::intern(std::int64_t a, std::int64_t b, std::int64_t c, __int1
   const auto magnitude = [](auto x) {
     return x < 0 ? -static_cast<unsigned __int128>(x) : static_cast<unsigned __int128>(x);
   };
-  std::uint64_t common = std::gcd(static_cast<std::uint64_t>(magnitude(a)), static_cast<std::uint64_t>(magnitude(b)));
+  std::uint64_t common =
+      common_divisor(static_cast<std::uint64_t>(magnitude(a)), static_cast<std::uint64_t>(magnitude(b)));
   // What is left of a common divisor is small, mostly.
-  if (common > 1) common = std::gcd(common, static_cast<std::uint64_t>(magnitude(c)) % common);
+  if (common > 1) common = common_divisor(common, static_cast<std::uint64_t>(magnitude(c)) % common);
   if (common == 0) common = static_cast<std::uint64_t>(magnitude(c));
   if (common == 0) throw std::domain_error("a plane needs a normal");
   const bool is_narrow = static_cast<std::int64_t>(d) == d;  // divisions of 128 bits take long
   if (common > 1)
-    common = std::gcd(common, is_narrow ? static_cast<std::uint64_t>(magnitude(d)) % common
-                                        : static_cast<std::uint64_t>(magnitude(d) % common));
+    common = common_divisor(common, is_narrow ? static_cast<std::uint64_t>(magnitude(d)) % common
+                                              : static_cast<std::uint64_t>(magnitude(d) % common));
   const bool flipped = a != 0 ? a < 0 : b != 0 ? b < 0 : c < 0;
   if (common > 1) {
     const auto divisor = static_cast<std::int64_t>(common);

@@ -44,16 +44,24 @@ Box_tree::Box_tree(const Operands& operands) : order_(operands.pieces().size()) 
   boxes_ = std::move(boxes);
   nodes_.resize(nodes_over(count, leaf_size));
   build(0, centres, room, 0, count);
-  std::vector<Box> in_order(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    order_[i] = centres[i].piece;
-    in_order[i] = boxes_[order_[i]];
+  for (std::uint32_t i = 0; i < count; ++i) order_[i] = centres[i].piece;
+  // 3. Its leaves, which come in the order of their pieces.
+  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+    Node& node = nodes_[n];
+    if (node.right != 0) continue;
+    node.leaf = static_cast<std::uint32_t>(leaves_.size());
+    leaves_.push_back(n);
+    Leaf_boxes& leaf = leaf_boxes_.emplace_back();
+    for (std::uint32_t i = node.first; i < node.last; ++i) {
+      const std::uint32_t place = i - node.first;
+      leaf.in_use |= 1u << place;
+      for (std::size_t k = 0; k < 3; ++k) {
+        leaf.low[k][place] = boxes_[order_[i]].low[k];
+        leaf.high[k][place] = boxes_[order_[i]].high[k];
+      }
+    }
   }
-  boxes_ = std::move(in_order);
-  for (std::uint32_t i = 0; i < nodes_.size(); ++i)
-    if (nodes_[i].right == 0) leaves_.push_back(i);
-  std::sort(leaves_.begin(), leaves_.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return nodes_[a].first < nodes_[b].first; });
+  boxes_ = {};
 }
 
 /// Brings the middle one along an axis to its place, lesser ones before it and greater ones behind. As many steps as

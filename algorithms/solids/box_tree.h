@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,8 +33,11 @@ class Box_tree {
 
   /// Leaves, in which pieces that are near to each other stand together.
   std::size_t leaf_count() const { return leaves_.size(); }
-  /// Calls visit(i, j) once for each pair of different pieces whose boxes meet, one of them in the leaf and the other
-  /// in it or in a later one. Thread-safe. Cost: O(log n + pairs) if boxes are small.
+  /// Pieces in the order of the leaves: what pairs are told in.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+  /// Calls visit(i, j, met) with places in order(), so that each pair of different pieces whose boxes meet, one of them
+  /// in the leaf and the other in it or in a later one, comes once: of place i with j + k for each bit k of `met`.
+  /// Thread-safe. Cost: O(log n + pairs) if boxes are small.
   template <class Visit>
   void for_each_pair(std::size_t leaf, Visit visit) const;
 
@@ -50,6 +56,47 @@ class Box_tree {
     Box box;
     std::uint32_t first, last;  // pieces order_[first, last)
     std::uint32_t right;        // its second child, the first being the next node; 0: a leaf
+    std::uint32_t leaf;         // its place in leaves_, if it is one
+  };
+  /// The boxes of a leaf, axis by axis, so that one box is compared with all of them.
+  struct Leaf_boxes {
+    alignas(16) std::array<std::array<double, leaf_size>, 3> low{}, high{};
+    unsigned in_use = 0;  // bit k: whether there is a box k
+
+    Box operator[](std::size_t place) const {
+      Box box;
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.low[k] = low[k][place];
+        box.high[k] = high[k][place];
+      }
+      return box;
+    }
+    /// Bit k: whether the box meets box k.
+    unsigned meeting(const Box& box) const {
+      unsigned apart = 0;
+#if defined(__GNUC__)  // two at once, which compilers do not make of the loop below
+      using Two = double __attribute__((vector_size(16)));
+      using Two_masks = std::int64_t __attribute__((vector_size(16)));  // all bits, or none
+      Two_masks masks{};
+      for (std::size_t place = 0; place < leaf_size; place += 2) {
+        Two_masks is_apart{};
+        for (std::size_t k = 0; k < 3; ++k) {
+          Two own_low, own_high;
+          std::memcpy(&own_low, &low[k][place], sizeof own_low);
+          std::memcpy(&own_high, &high[k][place], sizeof own_high);
+          const Two box_low{box.low[k], box.low[k]}, box_high{box.high[k], box.high[k]};
+          is_apart |= (own_low > box_high) | (box_low > own_high);
+        }
+        masks |= is_apart & Two_masks{std::int64_t{1} << place, std::int64_t{2} << place};
+      }
+      apart = static_cast<unsigned>(masks[0] | masks[1]);
+#else
+      for (std::size_t place = 0; place < leaf_size; ++place)
+        for (std::size_t k = 0; k < 3; ++k)
+          apart |= unsigned{(low[k][place] > box.high[k]) | (box.low[k] > high[k][place])} << place;
+#endif
+      return ~apart & in_use;
+    }
   };
   /// A piece as it is sorted: twice the centre of its box.
   struct Centre {
@@ -60,7 +107,8 @@ class Box_tree {
              std::uint32_t last);
   static void halve(std::span<Centre> centres, std::span<Centre> room, std::size_t axis, double low, double high);
 
-  std::vector<Box> boxes_;            // by place in order_
+  std::vector<Box> boxes_;  // by piece, while the tree is made
+  std::vector<Leaf_boxes> leaf_boxes_;
   std::vector<std::uint32_t> order_;  // pieces
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> leaves_;  // nodes
@@ -70,9 +118,10 @@ template <class Visit>
 void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
   // 1. Pairs in the leaf.
   const Node& own = nodes_[leaves_[leaf]];
+  const Leaf_boxes& boxes = leaf_boxes_[leaf];
   for (std::uint32_t i = own.first; i < own.last; ++i)
-    for (std::uint32_t j = i + 1; j < own.last; ++j)
-      if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+    if (const unsigned met = boxes.meeting(boxes[i - own.first]) & (~1u << (i - own.first)); met != 0)
+      visit(i, own.first, met);
   // 2. What is on the right of the way down to it has the later leaves; the least of them comes last on the stack.
   std::uint32_t stack[64];
   std::size_t size = 0;
@@ -95,36 +144,33 @@ void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
       stack[size++] = at + 1;
       continue;
     }
-    for (std::uint32_t i = own.first; i < own.last; ++i) {
-      if (!boxes_[i].meets(node.box)) continue;
-      for (std::uint32_t j = node.first; j < node.last; ++j)
-        if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+    const Leaf_boxes& others = leaf_boxes_[node.leaf];
+    for (unsigned near = boxes.meeting(node.box); near != 0; near &= near - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
+      if (const unsigned met = others.meeting(boxes[i]); met != 0) visit(own.first + i, node.first, met);
     }
   }
 }
 
 template <class Visit>
 void Box_tree::for_each_along(const std::array<double, 3>& from, std::size_t axis, bool upwards, Visit visit) const {
-  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const auto is_on_way = [&](const Box& box) {
-    const unsigned within_u = unsigned{box.low[u] <= from[u]} & unsigned{from[u] <= box.high[u]};
-    const unsigned within_v = unsigned{box.low[v] <= from[v]} & unsigned{from[v] <= box.high[v]};
-    return (within_u & within_v) != 0 && (upwards ? from[axis] <= box.high[axis] : box.low[axis] <= from[axis]);
-  };
+  Box way{from, from};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  (upwards ? way.high : way.low)[axis] = upwards ? infinity : -infinity;
   std::uint32_t stack[64];
   std::size_t size = 0;
   if (!nodes_.empty()) stack[size++] = 0;
   while (size > 0) {
     const std::uint32_t at = stack[--size];
     const Node& node = nodes_[at];
-    if (!is_on_way(node.box)) continue;
+    if (!node.box.meets(way)) continue;
     if (node.right != 0) {
       stack[size++] = node.right;
       stack[size++] = at + 1;
       continue;
     }
-    for (std::uint32_t i = node.first; i < node.last; ++i)
-      if (is_on_way(boxes_[i])) visit(order_[i]);
+    for (unsigned met = leaf_boxes_[node.leaf].meeting(way); met != 0; met &= met - 1)
+      visit(order_[node.first + static_cast<std::uint32_t>(std::countr_zero(met))]);
   }
 }
 

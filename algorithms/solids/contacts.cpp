@@ -27,6 +27,13 @@ struct Near_pair {
   bool has_common, has_edge;  ///< common points; both ends of an edge
 };
 
+/// An edge that two pieces have in common, with both ends.
+struct Common_edge {
+  std::uint32_t i, j;  ///< the pieces
+  std::uint32_t k, l;  ///< the edges' first corners, counted on through all pieces
+  bool is_against;     ///< whether they run against each other
+};
+
 /// What is found of some leaves' pairs.
 struct Leaf_contacts {
   std::vector<Near_pair> near;
@@ -34,47 +41,70 @@ struct Leaf_contacts {
   std::vector<Touch> touches;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> upon;
   std::vector<std::uint32_t> touched;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  ///< corners whose edges have both ends in common
-  std::vector<std::uint8_t> against;                           ///< whether these run against each other
+  std::vector<Common_edge> edges;
   std::size_t pairs = 0;
   Predicate_counts predicates;
 };
 
-/// A piece's plane in doubles, and the bound below which they do not tell an input point's side (P-03); and two axes in
-/// which the piece, seen from its front, is counterclockwise.
-struct Near_plane {
+/// What most pairs are settled by: a piece's plane in doubles, and the bound below which they do not tell an input
+/// point's side (P-03); two axes in which the piece, seen from its front, is counterclockwise; and the corners of a
+/// triangle.
+struct Near_piece {
   double a, b, c, d, bound;
   std::uint32_t u, v;
+  std::uint32_t piece, support, first;
+  std::array<std::uint32_t, 3> point;  // of other pieces no_triangle
+  std::array<std::array<double, 3>, 3> corner;
+
+  static constexpr std::uint32_t no_triangle = ~std::uint32_t{0};
+  bool is_triangle() const { return point[0] != no_triangle; }
 };
 
-/// What most pairs are settled by.
+/// All of them, in the order of the tree's leaves: those that are compared stand together.
 struct Near_pieces {
-  std::vector<Near_plane> planes;
-  std::vector<std::array<double, 3>> points;
-  double error;  // of each of their coordinates
+  std::vector<Near_piece> pieces;
+  double error;  // of each coordinate
 
-  explicit Near_pieces(const Operands& operands) : planes(operands.pieces().size()), points(operands.points().size()) {
+  Near_pieces(const Operands& operands, const Box_tree& tree) : pieces(tree.order().size()) {
     const Predicates predicates = operands.predicates();
     const Grid_points& grid = operands.points();
     error = grid.bits() <= 53 ? 0 : 0x1p-53 * grid.range() + 0x1p-1000;  // as in input_vertex()
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-      const Prepared_plane h = predicates.prepare(operands.pieces()[i].support);
+    for (std::size_t place = 0; place < pieces.size(); ++place) {
+      Near_piece& near = pieces[place];
+      near.piece = tree.order()[place];
+      const Piece& piece = operands.pieces()[near.piece];
+      const Prepared_plane h = predicates.prepare(piece.support);
       const std::array<double, 3> n{h.a, h.b, h.c};
       std::uint32_t axis = 0;
       for (std::uint32_t k = 1; k < 3; ++k)
         if (std::fabs(n[k]) > std::fabs(n[axis])) axis = k;
       const std::uint32_t one = axis == 2 ? 0 : axis + 1, other = axis == 0 ? 2 : axis - 1;
-      planes[i] = {h.a,
-                   h.b,
-                   h.c,
-                   h.d,
-                   (h.bound + error * h.norm) * (1 + 0x1p-50),
-                   n[axis] > 0 ? one : other,
-                   n[axis] > 0 ? other : one};
+      near.a = h.a;
+      near.b = h.b;
+      near.c = h.c;
+      near.d = h.d;
+      near.bound = (h.bound + error * h.norm) * (1 + 0x1p-50);
+      near.u = n[axis] > 0 ? one : other;
+      near.v = n[axis] > 0 ? other : one;
+      near.support = piece.support.id();
+      near.first = piece.first;
+      near.point[0] = Near_piece::no_triangle;
+      if (piece.size != 3) continue;
+      const std::span<const Piece_corner> corners = operands.corners(near.piece);
+      for (std::size_t k = 0; k < 3; ++k) {
+        near.point[k] = corners[k].point;
+        near.corner[k] = {grid.approximate(near.point[k], 0), grid.approximate(near.point[k], 1),
+                          grid.approximate(near.point[k], 2)};
+      }
     }
-    for (std::uint32_t p = 0; p < points.size(); ++p)
-      points[p] = {grid.approximate(p, 0), grid.approximate(p, 1), grid.approximate(p, 2)};
   }
+};
+
+/// A piece's corners, in doubles.
+struct Near_outline {
+  std::span<const std::uint32_t> point;
+  std::span<const std::array<double, 3>> at;
+  std::size_t size() const { return point.size(); }
 };
 
 /// Tells most pairs apart, in doubles, and notes which edges they have in common.
@@ -83,108 +113,130 @@ class Pair_filter {
   Pair_filter(const Operands& operands, const Near_pieces& near, Leaf_contacts& found)
       : operands_(operands), near_(near), found_(found) {}
 
-  void look_at(std::uint32_t i, std::uint32_t j) {
-    ++found_.pairs;
-    if (i > j) std::swap(i, j);
-    const bool coplanar = support(i).id() == support(j).id();
-    const std::span<const Piece_corner> a = operands_.corners(i), b = operands_.corners(j);
-    // 1. Most pairs are triangles, in planes of their own.
-    if (!coplanar && a.size() == 3 && b.size() == 3) {
-      look_at_triangles(i, j, a, b);
-      return;
+  /// Looks at piece i and j + k for each bit k of `met`: places in the tree's order.
+  void look_at(std::uint32_t i, std::uint32_t j, unsigned met) {
+    const Near_piece& p = near_.pieces[i];
+    for (; met != 0; met &= met - 1) {
+      const Near_piece& q = near_.pieces[j + static_cast<std::uint32_t>(std::countr_zero(met))];
+      ++found_.pairs;
+      // Most pairs are triangles, in planes of their own.
+      if (p.support != q.support && p.is_triangle() && q.is_triangle()) look_at_triangles(p, q);
+      else if (p.piece < q.piece) look_at_any(p, q);
+      else look_at_any(q, p);
     }
-    // 2. Common corners and edges.
+  }
+
+ private:
+  void look_at_any(const Near_piece& p, const Near_piece& q) {
+    const bool coplanar = p.support == q.support;
+    const Near_outline a = outline_of(p.piece, rooms_[0]), b = outline_of(q.piece, rooms_[1]);
+    // 1. Common corners and edges.
     std::size_t common = 0;
-    Near_pair pair{i, j, Near_pair::no_corner, false, false};
+    Near_pair pair{p.piece, q.piece, Near_pair::no_corner, false, false};
     for (std::size_t k = 0; k < a.size(); ++k)
       for (std::size_t l = 0; l < b.size(); ++l) {
-        if (a[k].point != b[l].point) continue;
-        pair.corner = ++common == 1 ? a[k].point : Near_pair::no_corner;
+        if (a.point[k] != b.point[l]) continue;
+        pair.corner = ++common == 1 ? a.point[k] : Near_pair::no_corner;
         const std::size_t k1 = k + 1 == a.size() ? 0 : k + 1, l1 = l + 1 == b.size() ? 0 : l + 1;
         const std::size_t l0 = l == 0 ? b.size() - 1 : l - 1;
-        const bool with = a[k1].point == b[l1].point, against = a[k1].point == b[l0].point;
+        const bool with = a.point[k1] == b.point[l1], against = a.point[k1] == b.point[l0];
         if (!with && !against) continue;
-        found_.edges.emplace_back(operands_.pieces()[i].first + k, operands_.pieces()[j].first + (with ? l : l0));
-        found_.against.push_back(against);
+        found_.edges.push_back({p.piece, q.piece, p.first + static_cast<std::uint32_t>(k),
+                                q.first + static_cast<std::uint32_t>(with ? l : l0), against});
         // In different planes they share the line of the edge, and of that line each has no more than the edge.
         if (!coplanar) return;
         pair.has_edge = true;
       }
     pair.has_common = common > 0;
+    // 2. Whether doubles tell them apart.
     if (!coplanar && common <= 1 &&
-        (is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common) || is_clearly_beside(i, j, pair.corner) ||
-         is_clearly_beside(j, i, pair.corner)))
+        (is_clearly_apart(p, b, common) || is_clearly_apart(q, a, common) || is_clearly_beside(p, a, b, pair.corner) ||
+         is_clearly_beside(q, b, a, pair.corner)))
       return;
     found_.near.push_back(pair);
   }
 
- private:
-  Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
-
-  void look_at_triangles(std::uint32_t i, std::uint32_t j, std::span<const Piece_corner> a,
-                         std::span<const Piece_corner> b) {
-    const unsigned which = common_corners(a, b);
+  void look_at_triangles(const Near_piece& a, const Near_piece& b) {
+    const unsigned which = common_corners(a.point, b.point);
     if ((which & (which - 1)) != 0) {  // two: an edge, opposite to the corner of each that is not common
       const auto missing = [](unsigned common) { return static_cast<std::size_t>(std::countr_one(common)); };
       const auto in_row = [which](unsigned k) { return static_cast<unsigned>((which >> (3 * k) & 7) != 0) << k; };
       const std::size_t k = missing(in_row(0) | in_row(1) | in_row(2));
       const std::size_t l = missing((which | which >> 3 | which >> 6) & 7);
       const std::size_t from = k == 2 ? 0 : k + 1, of_other = l == 2 ? 0 : l + 1;
-      found_.edges.emplace_back(operands_.pieces()[i].first + from, operands_.pieces()[j].first + of_other);
-      found_.against.push_back(a[from].point != b[of_other].point);
+      found_.edges.push_back({a.piece, b.piece, a.first + static_cast<std::uint32_t>(from),
+                              b.first + static_cast<std::uint32_t>(of_other), a.point[from] != b.point[of_other]});
       return;
     }
     const std::size_t common = which != 0;
-    if (is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common)) return;
+    const Near_outline of_a{a.point, a.corner}, of_b{b.point, b.corner};
+    if (is_clearly_apart(a, of_b, common) || is_clearly_apart(b, of_a, common)) return;
     const std::uint32_t corner =
-        common == 1 ? a[static_cast<std::size_t>(std::countr_zero(which)) / 3].point : Near_pair::no_corner;
-    if (is_clearly_beside(i, j, corner) || is_clearly_beside(j, i, corner)) return;
-    found_.near.push_back({i, j, corner, common == 1, false});
+        common == 1 ? a.point[static_cast<std::size_t>(std::countr_zero(which)) / 3] : Near_pair::no_corner;
+    if (is_clearly_beside(a, of_a, of_b, corner) || is_clearly_beside(b, of_b, of_a, corner)) return;
+    found_.near.push_back({std::min(a.piece, b.piece), std::max(a.piece, b.piece), corner, common == 1, false});
   }
 
   /// Bit 3 k + l where corner k of one triangle is corner l of the other.
-  static unsigned common_corners(std::span<const Piece_corner> a, std::span<const Piece_corner> b) {
+  static unsigned common_corners(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
     unsigned which = 0;
     for (unsigned k = 0; k < 3; ++k)
-      for (unsigned l = 0; l < 3; ++l) which |= static_cast<unsigned>(a[k].point == b[l].point) << (3 * k + l);
+      for (unsigned l = 0; l < 3; ++l) which |= static_cast<unsigned>(a[k] == b[l]) << (3 * k + l);
     return which;
   }
 
-  /// Whether doubles tell that all of piece j but a corner that it shares, if it shares one, is on one side of piece i.
-  bool is_clearly_apart(std::uint32_t i, std::span<const Piece_corner> of_j, std::size_t common) {
-    const Near_plane& h = near_.planes[i];
+  struct Outline_room {
+    std::vector<std::uint32_t> point;
+    std::vector<std::array<double, 3>> at;
+  };
+  Near_outline outline_of(std::uint32_t piece, Outline_room& room) const {
+    const Grid_points& grid = operands_.points();
+    room.point.clear();
+    room.at.clear();
+    for (const Piece_corner& corner : operands_.corners(piece)) {
+      const std::uint32_t p = corner.point;
+      room.point.push_back(p);
+      room.at.push_back({grid.approximate(p, 0), grid.approximate(p, 1), grid.approximate(p, 2)});
+    }
+    return {room.point, room.at};
+  }
+
+  /// Whether doubles tell that all of another piece but a corner that they share, if they share one, is on one side of
+  /// this one.
+  bool is_clearly_apart(const Near_piece& h, const Near_outline& other, std::size_t common) {
     std::size_t front = 0, behind = 0;
-    for (const Piece_corner& corner : of_j) {
-      const std::array<double, 3>& p = near_.points[corner.point];
+    for (const std::array<double, 3>& p : other.at) {
       const double value = h.a * p[0] + h.b * p[1] + h.c * p[2] + h.d;
       front += value > h.bound;
       behind += value < -h.bound;
     }
-    const std::size_t all = of_j.size() - common;  // a common corner is on the plane: neither
+    const std::size_t all = other.size() - common;  // a common corner is on the plane: neither
     if (front != all && behind != all) return false;
-    found_.predicates.filtered += of_j.size();
+    found_.predicates.filtered += other.size();
     return true;
   }
 
-  /// Whether doubles tell that an edge of piece i, at its common corner with piece j, if there is one, has all of j but
-  /// that corner on its outside, as seen along an axis. Proof of the bound: P-110
-  bool is_clearly_beside(std::uint32_t i, std::uint32_t j, std::uint32_t corner) {
-    const std::span<const Piece_corner> a = operands_.corners(i), b = operands_.corners(j);
-    const std::size_t u = near_.planes[i].u, v = near_.planes[i].v;
+  /// Whether doubles tell that an edge of a piece, at its common corner with another one, if there is one, has all of
+  /// that but the corner on its outside, as seen along an axis. Proof of the bound: P-110
+  bool is_clearly_beside(const Near_piece& piece, const Near_outline& a, const Near_outline& b, std::uint32_t corner) {
+    const std::size_t u = piece.u, v = piece.v;
     for (std::size_t k = 0; k < a.size(); ++k) {
-      const std::uint32_t from = a[k].point, to = a[k + 1 == a.size() ? 0 : k + 1].point;
+      const std::size_t k1 = k + 1 == a.size() ? 0 : k + 1;
+      const std::uint32_t from = a.point[k], to = a.point[k1];
       if (corner != Near_pair::no_corner && from != corner && to != corner) continue;
-      const std::array<double, 3>&p = near_.points[from], &q = near_.points[to];
+      const std::array<double, 3>&p = a.at[k], &q = a.at[k1];
       const double x = q[u] - p[u], y = q[v] - p[v];
-      const bool outside = std::all_of(b.begin(), b.end(), [&](const Piece_corner& other) {
-        if (other.point == corner) return true;
-        const std::array<double, 3>& r = near_.points[other.point];
+      const auto is_outside = [&](std::size_t l) {
+        if (b.point[l] == corner) return true;
+        const std::array<double, 3>& r = b.at[l];
         const double dx = r[u] - p[u], dy = r[v] - p[v];
         const double size = std::fabs(x) + std::fabs(y) + std::fabs(dx) + std::fabs(dy);
         const double bound =
             0x1p-50 * (std::fabs(x * dy) + std::fabs(y * dx)) + 4 * near_.error * (size + 2 * near_.error) + 0x1p-1000;
         return x * dy - y * dx < -bound;
-      });
+      };
+      bool outside = true;
+      for (std::size_t l = 0; outside && l < b.size(); ++l) outside = is_outside(l);
       if (!outside) continue;
       found_.predicates.filtered += b.size();
       return true;
@@ -195,6 +247,7 @@ class Pair_filter {
   const Operands& operands_;
   const Near_pieces& near_;
   Leaf_contacts& found_;
+  std::array<Outline_room, 2> rooms_;
 };
 
 /// Finds what near pairs have in common. Pre: edges are made.
@@ -394,11 +447,11 @@ Contacts contacts(Operands& operands, const Box_tree& tree,
   constexpr std::size_t together = 64;
   std::vector<Leaf_contacts> found((tree.leaf_count() + together - 1) / together);
   std::atomic<std::size_t> done = 0;
-  const Near_pieces near(operands);
+  const Near_pieces near(operands, tree);
   parallel_for(found.size(), [&](std::size_t chunk) {
     Pair_filter filter(operands, near, found[chunk]);
     for (std::size_t leaf = together * chunk; leaf < std::min(together * (chunk + 1), tree.leaf_count()); ++leaf) {
-      tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { filter.look_at(i, j); });
+      tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j, unsigned met) { filter.look_at(i, j, met); });
       ++done;
       if (progress) progress(done, 2 * tree.leaf_count());
     }
@@ -430,12 +483,9 @@ Contacts contacts(Operands& operands, const Box_tree& tree,
   all.first_upon = gathered(found, &Leaf_contacts::upon, pieces, all.upon, [](const auto& p) { return p.first; });
   all.touched.resize(pieces);
   std::vector<std::uint8_t> edges(pieces == 0 ? 0 : operands.pieces().back().first + operands.pieces().back().size);
-  std::vector<std::uint32_t> piece_of(edges.size());
-  for (std::uint32_t i = 0; i < pieces; ++i)
-    std::fill_n(piece_of.begin() + operands.pieces()[i].first, operands.pieces()[i].size, i);
   for (const Leaf_contacts& leaf : found) {
     for (const std::uint32_t i : leaf.touched) all.touched[i] = true;
-    for (const auto& [k, l] : leaf.edges) {
+    for (const auto& [i, j, k, l, is_against] : leaf.edges) {
       edges[k] = static_cast<std::uint8_t>(std::min(2, edges[k] + 1));
       edges[l] = static_cast<std::uint8_t>(std::min(2, edges[l] + 1));
     }
@@ -444,12 +494,9 @@ Contacts contacts(Operands& operands, const Box_tree& tree,
   }
   // 4. Edges of two pieces alone.
   for (const Leaf_contacts& leaf : found)
-    for (std::size_t e = 0; e < leaf.edges.size(); ++e) {
-      const auto [k, l] = leaf.edges[e];
-      if (leaf.against[e] != 0 && edges[k] == 1 && edges[l] == 1 && !all.touched[piece_of[k]] &&
-          !all.touched[piece_of[l]])
-        all.joined.emplace_back(k, l);
-    }
+    for (const auto& [i, j, k, l, is_against] : leaf.edges)
+      if (is_against && edges[k] == 1 && edges[l] == 1 && !all.touched[i] && !all.touched[j])
+        all.joined.emplace_back(i, j);
   return all;
 }
 

@@ -42,8 +42,7 @@ struct Contacts {
   std::vector<std::size_t> first_cut, first_touch, first_upon;  ///< of each piece; one more at the end
   /// By piece: it meets another one in more than a common corner or a whole common edge.
   std::vector<bool> touched;
-  /// Pairs of corners, counted on through all pieces, whose edges run against each other, and lie on no other piece:
-  /// of pieces that are not touched.
+  /// Pairs of pieces that are not touched, with edges that run against each other and lie on no other piece.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
   std::size_t pairs = 0;  ///< of which boxes meet
   Predicate_counts predicates;

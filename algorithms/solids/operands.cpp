@@ -99,6 +99,14 @@ std::pair<std::uint32_t, Face_id> Operands::source_of(Face_id face) const {
   return {operand, face - first_face_[operand]};
 }
 
+Operands Operands::with_room_for_edges() const {
+  Operands copy;
+  copy.faces_.planes = Plane_table(points());
+  copy.faces_.planes.reserve(planes().size() + planes().size() / 4 + 64);
+  copy = *this;  // into that room
+  return copy;
+}
+
 Predicates Operands::predicates() const& { return {points(), planes(), incidences_}; }
 
 Vertex Operands::vertex(const Predicates& predicates, std::size_t piece, std::size_t k) const {
@@ -124,6 +132,7 @@ std::vector<Operand_flaw> flaws(const Operands& operands) {
 
   // 2. Edges of each operand that have as many opposites as equals cancel.
   std::vector<Edge_use> edges;
+  if (!operands.pieces().empty()) edges.reserve(operands.pieces().back().first + operands.pieces().back().size);
   for (std::size_t i = 0; i < operands.pieces().size(); ++i) {
     const std::span<const Piece_corner> corners = operands.corners(i);
     for (std::size_t k = 0; k < corners.size(); ++k) {

@@ -50,6 +50,8 @@ class Operands {
   const Scene_counters& counters() const { return faces_.counters; }
   Predicates predicates() const&;  ///< of `kernel/predicates.h`
   Predicates predicates() const&& = delete;
+  /// The same, with room for the planes of some edges: these do not move all planes to another place.
+  Operands with_room_for_edges() const;
   /// Corner k of a piece. Pre: make_edges().
   Vertex vertex(const Predicates& predicates, std::size_t piece, std::size_t k) const;
   /// The file's coordinates of a point in homogeneous grid coordinates. Pre: h[3] != 0.
@@ -59,6 +61,8 @@ class Operands {
   Point_id add_point(std::uint32_t point, Polygon_soup& soup) const { return grid_.add_point(point, soup); }
 
  private:
+  Operands() = default;
+
   Scene_grid grid_;
   Scene_faces faces_;
   Point_planes incidences_;

@@ -107,7 +107,7 @@ Set_result set_operation(const Operands& given, const Set_options& options) {
     };
   };
   Set_result result;
-  Operands operands = given;  // with the edges of pieces that are asked for them
+  Operands operands = given.with_room_for_edges();  // of pieces that are asked for them
   const auto pieces = static_cast<std::uint32_t>(operands.pieces().size());
 
   // 1. What meets what.
@@ -117,12 +117,7 @@ Set_result set_operation(const Operands& given, const Set_options& options) {
 
   // 2. Pieces that meet no other, in patches; each of them has the winding numbers of its least piece.
   Patches patches(pieces);
-  std::vector<std::uint32_t> piece_of(
-      found.joined.empty() ? 0 : operands.pieces().back().first + operands.pieces().back().size);
-  if (!piece_of.empty())
-    for (std::uint32_t i = 0; i < pieces; ++i)
-      std::fill_n(piece_of.begin() + operands.pieces()[i].first, operands.pieces()[i].size, i);
-  for (const auto& [k, l] : found.joined) patches.join(piece_of[k], piece_of[l]);
+  for (const auto& [i, j] : found.joined) patches.join(i, j);
   std::vector<std::uint32_t> touched, heads;
   for (std::uint32_t i = 0; i < pieces; ++i) {
     if (found.touched[i]) touched.push_back(i);
@@ -160,6 +155,7 @@ Set_result set_operation(const Operands& given, const Set_options& options) {
   std::vector<std::pair<std::uint32_t, Fragment_mark>> marks;
   std::size_t fragments = 0;
   std::vector<std::uint32_t> head_place(pieces);
+  kept.reserve(pieces);
   for (std::uint32_t h = 0; h < heads.size(); ++h) head_place[heads[h]] = h;
   for (std::uint32_t i = 0, t = 0; i < pieces; ++i) {
     if (options.keep_fragments) stage(1)(1, 1);  // their points take long

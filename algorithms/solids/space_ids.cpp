@@ -17,7 +17,11 @@ Residue reduced(std::uint64_t n) {
   return n >= prime ? n - prime : n;
 }
 Residue minus(Residue a, Residue b) { return a >= b ? a - b : a + prime - b; }
-Residue times(Residue a, Residue b) { return reduced(a * b); }
+/// Pre: a, b < prime: one step leaves less than twice the prime.
+Residue times(Residue a, Residue b) {
+  const std::uint64_t product = a * b, n = (product & prime) + (product >> 31);
+  return n >= prime ? n - prime : n;
+}
 
 /// Of a two's complement number: 2^64 is 4.
 Residue residue(const Limb* limbs, int count) {
@@ -32,10 +36,15 @@ Residue residue(const Integer& n) {
 
 /// By Fermat: a^(prime - 2), whose exponent is 29 ones, a zero and a one. Pre: a != 0.
 Residue inverse(Residue a) {
-  Residue power = a;
-  for (int k = 0; k < 28; ++k) power = times(times(power, power), a);
-  power = times(power, power);
-  return times(times(power, power), a);
+  const auto followed_by = [](Residue ones, int steps, Residue more) {
+    for (int k = 0; k < steps; ++k) ones = times(ones, ones);
+    return times(ones, more);
+  };
+  const Residue ones2 = followed_by(a, 1, a), ones4 = followed_by(ones2, 2, ones2);
+  const Residue ones8 = followed_by(ones4, 4, ones4), ones16 = followed_by(ones8, 8, ones8);
+  const Residue ones24 = followed_by(ones16, 8, ones8), ones28 = followed_by(ones24, 4, ones4);
+  const Residue ones29 = followed_by(ones28, 1, a);
+  return followed_by(ones29, 2, a);
 }
 
 template <std::size_t Size>
@@ -47,6 +56,7 @@ bool normalize(Residues<Size>& row) {
   std::size_t last = Size;
   while (last > 0 && row[last - 1] == 0) --last;
   if (last == 0) return false;
+  if (row[last - 1] == 1) return true;
   const Residue factor = inverse(row[last - 1]);
   for (Residue& r : row) r = times(r, factor);
   return true;

@@ -159,6 +159,25 @@ TEST(Plane_table, every_row_has_gcd_one_and_a_positive_lead) {
   }
 }
 
+TEST(Plane_table, numbers_of_a_machine_and_integers_make_the_same_plane) {
+  Random random(5);
+  Grid grid(30);
+  const auto integer = [](std::int64_t n) { return Integer(static_cast<long>(n)); };
+  for (int i = 0; i < 2000; ++i) {
+    // With a common divisor, odd and even, and with zeros.
+    const auto one = static_cast<std::int64_t>(random() % 12 + 1);
+    const auto other = static_cast<std::int64_t>(random() % 40 + 1);
+    const std::int64_t factor = one * other;
+    const auto any = [&] {
+      return random() % 4 == 0 ? 0 : (static_cast<std::int64_t>(random() % (1u << 20)) - (1 << 19)) * factor;
+    };
+    const std::int64_t a = any(), b = any(), c = any(), d = any();
+    if (a == 0 && b == 0 && c == 0) continue;
+    ASSERT_EQ(grid.planes.intern(a, b, c, __int128{d}),
+              grid.planes.intern(integer(a), integer(b), integer(c), integer(d)));
+  }
+}
+
 TEST(Plane_table, one_plane_has_one_id_whatever_points_and_orientation_it_was_made_from) {
   Random random(11);
   for (const int bits : {6, 25, 70, 120}) {

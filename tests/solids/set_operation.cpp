@@ -25,6 +25,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -136,7 +137,12 @@ TEST(Box_tree, finds_each_pair_of_boxes_that_meet_once_however_many_middles_are_
     const Box_tree tree(operands);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found, expected;
     for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
-      tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { found.push_back(std::minmax(i, j)); });
+      tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t first, unsigned met) {
+        for (; met != 0; met &= met - 1) {
+          const std::uint32_t j = first + static_cast<std::uint32_t>(std::countr_zero(met));
+          found.push_back(std::minmax(tree.order()[i], tree.order()[j]));
+        }
+      });
     std::vector<Box_tree::Box> all(operands.pieces().size());
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c) {
