@@ -113,7 +113,7 @@ def test_two_fingers_pinch_by_what_they_spread_and_move_aside(open_page, browser
 def test_a_name_is_under_the_hand_while_it_is_there(open_page, town):
     page = open_page("see", town, "--eye=-3.5,-5,5")
     name = lambda: (page.drawn(), page.text("#hover"))[1]
-    assert name() == "" and not page.one("#hover").is_displayed()
+    assert name() == "" and not page.one("#hover").is_displayed() and page.one("#hover").get_attribute("aria-live") == "off"
     k = page.js("return sightline.pickAt(350, 400)")
     page.js("sightline.select(arguments[0])", k)
     wanted = page.text("#selected-name")
@@ -185,6 +185,8 @@ def test_a_player_stops_goes_on_and_begins_anew(open_page):
     assert page.js("return sightline.linesOf('last').length") == 8, "the last painted is outlined, twice four sides"
     last, corners = page.js("return sightline.linesOf('last').map(line => line.from)"), corners_of(page)
     assert all(any(math.dist(p, q) < 1e-6 for q in corners[16:20]) for p in last)
+    page.js("sightline.select(4)")
+    assert page.text("#selected-name").endswith(", polygon 5 of 6 from the back")
     page.press("["), page.press("[")
     assert value() == 3
     back, on = page.all("#panel .row button")[1:3]
@@ -199,7 +201,7 @@ def test_a_player_stops_goes_on_and_begins_anew(open_page):
     assert value() == 6
 
 
-@pytest.mark.parametrize("words", [["order", "--eye=3,4,5"], ["graph"], ["order", "--eye=300,-400,500"]])
+@pytest.mark.parametrize("words", [["order", "--eye=3,4,5"], ["graph"], ["order", "--eye=300,-400,500"], ["order", "--eye=3e20,-4e20,5e20"]])
 def test_the_scene_fills_the_canvas(open_page, words):
     page = open_page(words[0], cube, *words[1:])
     places = page.js("return arguments[0].map(sightline.onCanvas)", corners_of(page))

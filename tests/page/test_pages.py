@@ -387,8 +387,9 @@ def test_a_lost_context_is_found_again(open_page, town):
     assert abs(page.picture()[0] - drawn) < 0.01
 
 
-def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town):
-    page = open_page("order", town, eye)
+@pytest.mark.parametrize("words", [["order", eye], ["see", eye], ["weak", "--from-face", 0]])
+def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town, words):
+    page = open_page(words[0], corpus / "general" / "two_rooms.off" if words[0] == "weak" else town, *words[1:])
     for _ in ("from the eye", "from outside"):
         right, wrong = page.js("""
             sightline.draw();  // the canvas has its size from then on
@@ -407,7 +408,7 @@ def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town):
               }
             return [right, wrong];
             """)
-        assert right > 50 and wrong == 0, _
+        assert right > 50 and wrong <= (0.05 * right if words[0] == "weak" else 0), _  # a source's outline is before all
         page.press("e")
 
 
@@ -702,7 +703,11 @@ def without(data, left):
 
 
 def test_a_proof_is_the_tree_that_the_page_holds(open_page):
-    page = open_page("weak", corpus / "general" / "two_rooms.off", "--from-face", 0)
+    def change(data):
+        kinds = unpacked(data["proofs"]["kinds"])
+        data["proofs"]["kinds"] = packed([kind + kinds[:i].count(kind) % (4 if kind == 3 else 3) if kind in (0, 3) else kind for i, kind in enumerate(kinds)])
+
+    page = open_page("weak", corpus / "general" / "two_rooms.off", "--from-face", 0, change=change)
     proofs = {key: page.numbers("proofs", key) for key in page.data["proofs"]}
     faces = page.numbers("polygons", "faces")
     longest = max(range(len(proofs["pieces"])), key=lambda i: proofs["begin"][i + 1] - proofs["begin"][i])
@@ -725,7 +730,7 @@ def test_a_proof_is_the_tree_that_the_page_holds(open_page):
     trees = [tree for tree, _ in trees]
     flat = lambda node: [node, *(below for part in node[2] for below in flat(part))]
     nodes = [node for tree in trees for node in flat(tree)]
-    assert {proofs["kinds"][step] for _, step, _ in nodes} >= {0, 3}
+    assert {proofs["kinds"][step] for _, step, _ in nodes} == set(range(7)), "some of each"
     page.js("sightline.select(arguments[0])", k)
     to_depth = lambda node, depth: [node[0], *(text for part in node[2] if depth > 0 for text in to_depth(part, depth - 1))]
     shown_nodes = lambda: [b.text for b in page.all("#proof ul.tree button")]
@@ -736,7 +741,8 @@ def test_a_proof_is_the_tree_that_the_page_holds(open_page):
         by = list(dict.fromkeys(proofs["of"][step] for _, step, _ in leaves if proofs["kinds"][step] == 3))
         blockers.update(by)
         wanted = f"source {proofs['sources'][i] + 1}: {len(leaves)} " + ("leaf" if len(leaves) == 1 else "leaves")
-        assert said.text == wanted + (f", blocked by {', '.join(f'face {faces[b]}' for b in by)}" if by else "")
+        opened = sum(proofs["kinds"][step] == 6 for _, step, _ in leaves)
+        assert said.text == wanted + (f", blocked by {', '.join(f'face {faces[b]}' for b in by)}" if by else "") + (f"; {opened} open" if opened else "")
     assert blockers and len(page.data["groups"]) > 3
     assert has_colours(page, {b: other for b in blockers}) and not any(has_colour(page, b, other) for b in range(0, 142, 5) if b not in blockers)
     assert len(ends_of(page, "blockers")) == sum(len(sides_of(page, b)) for b in blockers)
@@ -793,10 +799,14 @@ def test_sightlines_go_from_a_source_to_a_face(open_page):
 
 
 def test_hidden_lines_are_dashed_and_what_hides_a_line_lights_up(open_page, town):
-    page = open_page("see", town, eye, "--lines")
+    def change(data):
+        names, kinds = data["lines"]["names"], unpacked(data["lines"]["kinds"])
+        names += [] if "smooth" in names else ["smooth"]
+        data["lines"]["kinds"] = packed([names.index("smooth") if edge % 7 == 0 else kind for edge, kind in zip(unpacked(data["lines"]["edges"]), kinds)])
+
+    page = open_page("see", town, eye, "--lines", change=change)
     of, kinds = page.numbers("lines", "hidden_by"), [page.data["lines"]["names"][kind] for kind in page.numbers("lines", "kinds")]
     edges, ends = page.numbers("lines", "edges"), segments_of(page.numbers("lines", "ends"))
-    assert "smooth" in page.data["lines"]["names"] or "crease" in kinds
     of_kind = lambda is_hidden: [ends[i] for i in range(len(ends)) if kinds[i] != "smooth" and (of[i] > 0) == is_hidden]
     assert ends_of(page, "hidden") == of_kind(True) and ends_of(page, "visible") == of_kind(False)
     # A picture with them, and one without.
@@ -821,12 +831,15 @@ def test_hidden_lines_are_dashed_and_what_hides_a_line_lights_up(open_page, town
     with_lines, black = pixels(dashed), pixels(whole)
     box.click()
     assert ends_of(page, "hidden") == [] and ends_of(page, "visible") == of_kind(False)
-    changed = [sum(abs(a - b) > 30 for a, b in zip(one, two)) / len(one) for one, two in zip(with_lines, pixels(dashed))]
+    without_lines = pixels(dashed)
+    changed = [sum(abs(a - b) > 30 for a, b in zip(one, two)) / len(one) for one, two in zip(with_lines, without_lines)]
     assert 0.25 < sorted(changed)[len(changed) // 2] < 0.8, "dashes, and what is between them"
     dark = [sum(p < 150 for p in one) / len(one) for one in black]
     assert sorted(dark)[len(dark) // 2] > 0.8, "whole lines on their faces"
     box.click()
-    assert page.js("return sightline.drawing.outlines") is False and min(min(one) for one in with_lines) > 40, "faces shine through what is hidden"
+    assert page.js("return sightline.drawing.outlines") is False and page.js("return sightline.lines('hidden')") > 0
+    inks = sorted(p for one, two in zip(with_lines, without_lines) for p, q in zip(one, two) if q - p > 30)
+    assert inks[len(inks) // 2] > 110, "faces shine through what is hidden"
     # What hides one, and all parts of its edge.
     for n in (i for i in range(len(ends)) if kinds[i] != "smooth" and of[i] == 0 and sum(edge == edges[i] for edge in edges) > 2):
         a, b = page.js("return arguments[0].map(sightline.onCanvas)", ends[n])
@@ -840,6 +853,26 @@ def test_hidden_lines_are_dashed_and_what_hides_a_line_lights_up(open_page, town
         break
     else:
         pytest.fail("no edge of three parts that is long enough")
+    # A hidden part, and a face, away from all other lines.
+    at, k = page.js("""
+        const far = (p, [a, b]) => {
+          const d = [b[0] - a[0], b[1] - a[1]], l = d[0] * d[0] + d[1] * d[1], t = l > 0 ? Math.max(0, Math.min(1, ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / l)) : 0;
+          return Math.hypot(a[0] + t * d[0] - p[0], a[1] + t * d[1] - p[1]);
+        };
+        const lines = ['hidden', 'visible'].flatMap(name => sightline.linesOf(name)).map(line => [line.from, line.to].map(sightline.onCanvas)).filter(([a, b]) => a && b);
+        const hidden = sightline.linesOf('hidden').map(line => [line.from, line.to].map(sightline.onCanvas)).filter(([a, b]) => a && b);
+        const middles = hidden.map(([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]);
+        const part = middles.find(at => at[0] > 150 && at[1] > 60 && at[1] < 550 && at[0] < 700 && lines.filter(line => far(at, line) <= 5).length === 1);
+        for (let k = arguments[0]; k < arguments[1]; ++k) {
+          const at = sightline.middleOf(k);
+          if (at && sightline.pickAt(...at) === k && lines.every(line => far(at, line) > 8)) return [part, k];
+        }
+        return [part, -1];
+        """, page.data["base"], page.data["polygons"]["count"])
+    page.click_on(k)
+    assert k >= 0 and page.js("return sightline.selected") == k and page.all("#edge-parts") == []
+    page.click_at(*at)
+    assert "hidden by face" in page.text("#edge-parts")
 
 
 def test_the_unrolled_sphere_outlines_what_is_selected(open_page):
@@ -884,6 +917,9 @@ def test_faces_that_doubles_err_in_have_colours_of_their_own(open_page, tmp_path
     page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2", change=change)
     assert page.text("#errors") == "missing: " + ", ".join(map(str, [0, *range(10, 39)])) + " …. shown: 3."
     own = looks_of(page, 0)
+    above = {face: k for k, face in enumerate(page.numbers("polygons", "faces")) if k >= page.data["base"]}
+    one, two = next((above[face], above[face + 6]) for face in above if face + 6 in above)
+    assert shares(looks_of(page, one)) != pytest.approx(shares(looks_of(page, two)), abs=0.02), "six colours, of each three"
     page.one("#doubles").click()
     faces = page.numbers("polygons", "faces")
     assert has_colours(page, {k: front if face in (0, *range(10, 50)) else source if face == 3 else hidden if k < page.data["base"] else face_colour
@@ -958,6 +994,38 @@ def test_one_looks_from_the_path_and_back(open_page):
         if changed:
             page.js("sightline.select(1)")
             assert page.text("#selected-name").startswith("face 2")
+
+
+def test_a_wall_hides_lines_behind_it_from_an_eye_close_to_it(open_page):
+    def change(data):
+        data["frames"]["places"] = [[0.6, 0, 0], [-1, -0.2, 0], [-1, 0.2, 0.02]]
+
+    page = open_page("cutset", corpus / "general" / "cube.off", "--orbit", 3, change=change)
+    page.one("#follow").click()
+    pixel, k = page.js("""
+        const view = document.getElementById('view'), gl = view.getContext('webgl2'), pixels = new Uint8Array(4 * 121);
+        sightline.draw();
+        const scale = view.width / view.clientWidth, [x, y] = sightline.onCanvas([-1, 0, 0.01]);
+        gl.readPixels(Math.round(x * scale) - 5, view.height - 6 - Math.round(y * scale), 11, 11, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        return [[...pixels], sightline.pickAt(x, y)];
+        """)
+    assert page.js("return sightline.camera.atEye") is True and k >= 0
+    assert all(abs(pixel[i + c] - own) < 3 for i in range(0, len(pixel), 4) for c, own in enumerate(looks_of(page, k)))
+
+
+def test_a_source_far_from_the_scene_is_drawn(open_page):
+    page = open_page("weak", corpus / "general" / "cube.off", "--from", "12,0,0 12,0,1 12,1,1 12,1,0")
+    for _ in range(24):
+        page.press("-")
+    pixel = page.js("""
+        const view = document.getElementById('view'), gl = view.getContext('webgl2'), pixel = new Uint8Array(4);
+        sightline.drawing.backs = true;
+        sightline.draw();
+        const scale = view.width / view.clientWidth, [x, y] = sightline.middleOf(arguments[0]);
+        gl.readPixels(Math.round(x * scale), view.height - 1 - Math.round(y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+        return [...pixel];
+        """, page.data["base"])
+    assert pixel[2] > 1.5 * pixel[0], "blue, as sources are"
 
 
 def test_faces_that_are_left_out_are_not_taken_for_others(open_page):
