@@ -100,7 +100,7 @@ function onCanvas(p, frame) {
 
 // ---- By hand and by keys
 
-/// What is under the hand stays there: by so many radians to the right, and downwards.
+/// The scene goes with the hand: by so many radians to the right, and downwards; from the eye, where the field is 60 degrees.
 function turn(right, down) {
   const s = camera.atEye ? camera.field / 60 : 1;
   camera.yaw += camera.atEye ? s * right : -right;
@@ -144,7 +144,10 @@ function listenToHands() {
       pinch = now;
       shift(dx / w / 2, dy / h / 2);
     } else if (e.shiftKey || e.buttons === 2 || e.buttons === 4) shift(dx / w, dy / h);
-    else turn(3.2 * dx / h, 3.2 * dy / h);
+    else {
+      const s = camera.atEye ? Math.PI / 3 : 3.2;  // from the eye a field of view in a canvas
+      turn(s * dx / h, s * dy / h);
+    }
   });
   const up = e => {
     if (!pointers.delete(e.pointerId)) return;
@@ -167,9 +170,9 @@ const keys = {
 function listenToKeys() {
   document.addEventListener('keydown', e => {
     if (e.ctrlKey || e.altKey || e.metaKey) return;
-    const isField = /^(INPUT|SELECT|TEXTAREA)$/.test(e.target.tagName) && e.target.type !== 'checkbox';
+    const isSlider = e.target.type === 'range';
     const isButton = e.target.tagName === 'BUTTON' || e.target.tagName === 'SUMMARY' || e.target.type === 'checkbox';
-    if ((isField && e.key !== ' ') || (isButton && (e.key === ' ' || e.key === 'Enter'))) return;
+    if ((isSlider && /^(Arrow|Page|Home|End)/.test(e.key)) || (isButton && (e.key === ' ' || e.key === 'Enter'))) return;
     const act = keys[e.key];
     if (!act) return;
     e.preventDefault();

@@ -35,14 +35,6 @@ function readPolygons() {
 }
 const polygons = readPolygons();
 
-/// Polygons of each face, in order.
-const polygonsOfFace = new Map();
-for (let k = 0; k < polygons.count; ++k) {
-  const face = polygons.faces[k];
-  if (!polygonsOfFace.has(face)) polygonsOfFace.set(face, []);
-  polygonsOfFace.get(face).push(k);
-}
-
 /// Coordinates of the file, rounded as the page's places are.
 function rounded(place) {
   const {middle, size} = data.frame;

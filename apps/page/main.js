@@ -39,7 +39,7 @@ function faceName(k) {
 }
 function fullName(k) {
   const group = data.groups[polygons.groups[k]], more = command.nameOf ? command.nameOf(k) : '';
-  return faceName(k) + (group && data.groups.length > 1 && polygons.faces[k] !== noFace ? `: ${group.name}` : '') + (more ? `, ${more}` : '');
+  return faceName(k) + (group && data.groups.length > 1 && !command.groupsChange && polygons.faces[k] !== noFace ? `: ${group.name}` : '') + (more ? `, ${more}` : '');
 }
 
 // ---- Hovering and clicking
@@ -193,6 +193,7 @@ window.sightline = {
   middleOf(k) { const list = cornersOf(k); return onCanvas(times(1 / list.length, list.reduce(add)), cameraFrame()); },
   onCanvas: place => onCanvas(place, cameraFrame()),
   lines: name => lineLayers.has(name) ? lineLayers.get(name).list.length : 0,
+  linesOf: name => lineLayers.has(name) ? lineLayers.get(name).list : [],
   pickAt(x, y) { const hit = pick(rayAt(x, y)); return hit ? hit.polygon : -1; },
 };
 document.documentElement.dataset.ready = 'yes';

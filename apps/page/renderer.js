@@ -44,7 +44,7 @@ void main() {
   bool last = corner == 2 || corner == 4 || corner == 5;
   vec4 c = last ? q : p;
   c.xy += (corner == 0 || corner == 2 || corner == 4 ? -1.0 : 1.0) * 0.5 * kind.x * normal / size * c.w;
-  c.z -= bias * c.w;
+  c.z -= bias * max(2e-3 * near, 6e-7 * c.w);  // by a thousandth of the way to it, but no less than depths are told apart by
   along = vec2(last ? l * c.w : 0.0, c.w);
   colour = paint;
   dash = kind.y;
@@ -208,7 +208,7 @@ function draw() {
       if (layer.through !== through) continue;
       if (!layer.vertices) prepareLines(layer);
       through ? gl.disable(gl.DEPTH_TEST) : gl.enable(gl.DEPTH_TEST);
-      gl.uniform1f(faces.lines.bias, through ? 0 : 4e-4);
+      gl.uniform1f(faces.lines.bias, through ? 0 : 1);
       gl.bindVertexArray(layer.vertices);
       gl.drawArrays(gl.TRIANGLES, 0, 6 * layer.list.length);
     }

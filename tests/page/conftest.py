@@ -1,5 +1,6 @@
 """A browser for all tests, and pages that the program writes."""
 
+import base64
 import json
 import os
 import re
@@ -13,6 +14,7 @@ from selenium.webdriver.chrome.service import Service
 
 program = os.environ["SIGHTLINE_PROGRAM"]
 corpus = Path(__file__).parents[1] / "corpus"
+block = re.compile(r'(<script type="application/json" id="data">)(.*?)(</script>)', re.S)
 
 
 def run(*words, code=0):
@@ -24,8 +26,16 @@ def run(*words, code=0):
 
 def block_of(path):
     """The block of data of a page."""
-    text = Path(path).read_text()
-    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', text, re.S)[1])
+    return json.loads(block.search(Path(path).read_text())[2])
+
+
+def unpacked(numbers):
+    return list(memoryview(base64.b64decode(numbers["base64"])).cast({"u8": "B", "u16": "H", "u32": "I", "f32": "f"}[numbers["type"]]))
+
+
+def packed(numbers):
+    """Of a list of whole numbers, as pages hold them."""
+    return {"type": "u32", "base64": base64.b64encode(b"".join(n.to_bytes(4, "little") for n in numbers)).decode()}
 
 
 class Page:
@@ -64,10 +74,31 @@ class Page:
         view = self.one("#view")
         actions.move_to_element_with_offset(view, x - view.size["width"] / 2, y - view.size["height"] / 2).click().perform()
 
+    def mouse(self, kind, x, y, **more):
+        """What a mouse does in the window, whose corner is the scene's."""
+        self.browser.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": kind, "x": x, "y": y, **more})
+
+    def drag(self, start, by, **more):
+        button = {"button": "left", "buttons": 1, "clickCount": 1, **more}
+        self.mouse("mousePressed", *start, **button)
+        self.mouse("mouseMoved", start[0] + by[0], start[1] + by[1], **button)
+        self.mouse("mouseReleased", start[0] + by[0], start[1] + by[1], **button)
+
+    def drawn(self):
+        """Waits for what was asked to be drawn."""
+        self.js("return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+    def numbers(self, *keys):
+        """Numbers of the block of data."""
+        found = self.data
+        for key in keys:
+            found = found[key]
+        return unpacked(found)
+
     def picture(self):
         """Of a screenshot of the scene: the share of pixels that are not the paper, and how many colours there are."""
         self.js("for (const id of ['tools', 'hover']) document.getElementById(id).style.visibility = 'hidden'")
-        self.js("return new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        self.drawn()
         return self.browser.execute_async_script(
             """
             const done = arguments[1], image = new Image();
@@ -115,9 +146,13 @@ def open_page(browser, tmp_path):
     """open_page(command, scene, ...) runs the program and opens what it wrote; no page may have said anything on the console."""
     opened = []
 
-    def opener(*words, code=0, name="page.html", after=()):
+    def opener(*words, code=0, name="page.html", after=(), change=None):
         path = tmp_path / name
         run(*words, "--html", path, *after, code=code)
+        if change:  # of the data, as another program may write them
+            data = block_of(path)
+            change(data)
+            path.write_text(block.sub(lambda _: _[1] + json.dumps(data).replace("<", "\\u003c") + _[3], path.read_text()))
         opened.append(Page(browser, path))
         return opened[-1]
 

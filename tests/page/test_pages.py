@@ -1,12 +1,15 @@
 """Pages in a browser: what they show, and what becomes of clicks, keys and sliders."""
 
+import base64
 import json
+import math
 import re
 from fractions import Fraction
+from pathlib import Path
 from sys import executable
 
 import pytest
-from conftest import block_of, corpus, program, run
+from conftest import block_of, corpus, packed, program, run, unpacked
 
 eye = "--eye=-3.5,-5,5"
 
@@ -385,8 +388,9 @@ def test_a_lost_context_is_found_again(open_page, town):
     assert abs(page.picture()[0] - drawn) < 0.01
 
 
-def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town):
-    page = open_page("order", town, eye)
+@pytest.mark.parametrize("words", [["order", eye], ["see", eye], ["weak", "--from-face", 0]])
+def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town, words):
+    page = open_page(words[0], corpus / "general" / "two_rooms.off" if words[0] == "weak" else town, *words[1:])
     for _ in ("from the eye", "from outside"):
         right, wrong = page.js("""
             sightline.draw();  // the canvas has its size from then on
@@ -405,7 +409,7 @@ def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town):
               }
             return [right, wrong];
             """)
-        assert right > 50 and wrong == 0, _
+        assert right > 50 and wrong <= (0.05 * right if words[0] == "weak" else 0), _  # a source's outline is before all
         page.press("e")
 
 
@@ -549,7 +553,7 @@ def test_a_page_of_many_corners_rounds_them(open_page, tmp_path, size):
     within = 2**-15 * page.data["frame"]["size"]
     for k in (0, faces // 2, faces - 1):
         page.js("sightline.select(arguments[0])", k)
-        assert page.text("#selected-name").startswith(f"face {k}: ")
+        assert page.text("#selected-name") in (f"face {k}, on-view", f"face {k}, off-view")
         said = [[float(x) for x in item.text.split(", ")] for item in page.all("#selection .exact li")]
         loop = [int(w) for w in words[4 + 3 * points + 4 * k + 1:4 + 3 * points + 4 * k + 4]]
         assert len(said) == 3
@@ -639,7 +643,476 @@ def test_a_judgement_fits_1400_pixels(browser, tmp_path):
     assert across[0] <= across[1] <= 1400
 
 
+# ---- What sections hold, and what their buttons draw
+
+
+def shares(colour):
+    """What of a colour's parts are left where a face is lighter or darker."""
+    return [c / max(colour) for c in colour]
+
+
+def has_colours(page, colours):
+    """Of polygons, {polygon: colour}."""
+    looks = page.js("return [...sightline.looks]")
+    return [k for k, colour in colours.items() if shares(looks[4 * k:4 * k + 3]) != pytest.approx(shares(colour), abs=0.02)] == []
+
+
+def has_colour(page, k, colour):
+    return has_colours(page, {k: colour})
+
+
+seen, hidden, source, new, other, front, face_colour, undecided = (
+    (230, 159, 0), (150, 151, 156), (0, 114, 178), (0, 158, 115), (86, 180, 233), (213, 94, 0), (178, 190, 200), (204, 121, 167))
+
+
+def shown(page):
+    """Polygons that are drawn."""
+    return page.js("return [...sightline.looks].filter((_, i) => i % 4 === 3).flatMap((a, k) => a > 0 ? [k] : [])")
+
+
+def ends_of(page, layer):
+    return [tuple(map(tuple, line)) for line in page.js("return sightline.linesOf(arguments[0]).map(line => [line.from, line.to])", layer)]
+
+
+def segments_of(numbers):
+    return [(tuple(numbers[i:i + 3]), tuple(numbers[i + 3:i + 6])) for i in range(0, len(numbers), 6)]
+
+
+def sides_of(page, k):
+    """Sides of a polygon, from its first corner on."""
+    first = sum(page.numbers("polygons", "sizes")[:k])
+    numbers = page.numbers("polygons", "corners")[3 * first:3 * (first + page.numbers("polygons", "sizes")[k])]
+    corners = [tuple(numbers[i:i + 3]) for i in range(0, len(numbers), 3)]
+    return list(zip(corners, corners[1:] + corners[:1]))
+
+
+def without(data, left):
+    """Leaves polygons out of a block of data, as pages of many triangles do."""
+    polygons = data["polygons"]
+    sizes, faces = unpacked(polygons["sizes"]), unpacked(polygons["faces"])
+    kept = [k for k in range(polygons["count"]) if k not in left]
+    place = [sum(sizes[:k]) for k in range(len(sizes))]
+    corners = [i for k in kept for i in range(place[k], place[k] + sizes[k])]
+    at = base64.b64decode(polygons["corners"]["base64"])
+    polygons["corners"]["base64"] = base64.b64encode(b"".join(at[12 * i:12 * i + 12] for i in corners)).decode()
+    exact = unpacked(polygons["exact"]["corners"])
+    polygons["exact"]["corners"] = packed([exact[i] for i in corners])
+    polygons.update(count=len(kept), sizes=packed([sizes[k] for k in kept]), faces=packed([faces[k] for k in kept]), numbers=packed(kept))
+    if "groups" in polygons:
+        groups = unpacked(polygons["groups"])
+        polygons["groups"] = packed([groups[k] for k in kept])
+
+
+def test_a_proof_is_the_tree_that_the_page_holds(open_page):
+    def change(data):
+        kinds = unpacked(data["proofs"]["kinds"])
+        other = lambda i, kind: 3 + (1 + kinds[:i].count(3)) % 4 if kind == 3 else kind if kind > 0 else 2 if kinds[i - 1] < 3 else 0
+        data["proofs"]["kinds"] = packed([other(i, kind) for i, kind in enumerate(kinds)])
+
+    page = open_page("weak", corpus / "general" / "two_rooms.off", "--from-face", 0, change=change)
+    proofs = {key: page.numbers("proofs", key) for key in page.data["proofs"]}
+    faces = page.numbers("polygons", "faces")
+    longest = max(range(len(proofs["pieces"])), key=lambda i: proofs["begin"][i + 1] - proofs["begin"][i])
+    k = proofs["pieces"][longest]
+    own = [i for i, piece in enumerate(proofs["pieces"]) if faces[piece] == faces[k]]
+
+    def walk(step, way):
+        """A node, as [text, step, parts], and where it ends."""
+        kind, name = proofs["kinds"][step], f"face {faces[proofs['of'][step]]}"
+        text = [f"past an edge of {name} …", "a cut of the source …", "a cut of the face …", f"blocked by {name}", "no line there", "they face away", "open"][kind]
+        if kind > 2:
+            return [way + text, step, []], step + 1
+        ways = ("on one side: ", "on the other: ") if kind == 0 else ("in front: ", "behind: ")
+        one, end = walk(step + 1, ways[0])
+        two, end = walk(end, ways[1])
+        return [way + text, step, [one, two]], end
+
+    trees = [walk(proofs["begin"][i], "") for i in own]
+    assert [end for _, end in trees] == [proofs["begin"][i + 1] for i in own]
+    trees = [tree for tree, _ in trees]
+    flat = lambda node: [node, *(below for part in node[2] for below in flat(part))]
+    nodes = [node for tree in trees for node in flat(tree)]
+    assert {proofs["kinds"][step] for _, step, _ in nodes} == {0, 2, 3, 4, 5, 6}, "some of each, and planes in first parts"
+    page.js("sightline.select(arguments[0])", k)
+    to_depth = lambda node, depth: [node[0], *(text for part in node[2] if depth > 0 for text in to_depth(part, depth - 1))]
+    shown_nodes = lambda: [b.text for b in page.all("#proof ul.tree button")]
+    assert shown_nodes() == [text for tree in trees for text in to_depth(tree, 2)], "open to its second level"
+    blockers = set()
+    for i, tree, said in zip(own, trees, page.all("#proof > p:not(.faint)"), strict=True):
+        leaves = [node for node in flat(tree) if not node[2]]
+        by = list(dict.fromkeys(proofs["of"][step] for _, step, _ in leaves if proofs["kinds"][step] == 3))
+        blockers.update(by)
+        wanted = f"source {proofs['sources'][i] + 1}: {len(leaves)} " + ("leaf" if len(leaves) == 1 else "leaves")
+        opened = sum(proofs["kinds"][step] == 6 for _, step, _ in leaves)
+        assert said.text == wanted + (f", blocked by {', '.join(f'face {faces[b]}' for b in by)}" if by else "") + (f"; {opened} open" if opened else "")
+    assert blockers and len(page.data["groups"]) > 3
+    assert has_colours(page, {b: other for b in blockers}) and not any(has_colour(page, b, other) for b in range(0, 142, 5) if b not in blockers)
+    assert len(ends_of(page, "blockers")) == sum(len(sides_of(page, b)) for b in blockers)
+    # All of it, and what each node draws.
+    for _ in range(40):
+        page.js("""
+            for (const made of document.querySelectorAll('#proof ul.tree button'))
+              if (made.textContent.endsWith('…') && made.nextSibling.childElementCount === 0) { made.click(); break; }
+            """)
+    assert shown_nodes() == [text for text, _, _ in nodes]
+    for j in range(len(nodes) - 1, -1, -1):  # from below, as a click closes what is below
+        text, step, _ = nodes[j]
+        page.js("document.querySelectorAll('#proof ul.tree button')[arguments[0]].click()", j)
+        drawn, kind, sides = ends_of(page, "step"), proofs["kinds"][step], sides_of(page, proofs["of"][step])
+        assert drawn == (sides + [sides[proofs["corners"][step]]] if kind == 0 else sides if kind == 3 else []), text
+    page.js("sightline.select(-1)")
+    assert all(page.js("return sightline.lines(arguments[0])", name) == 0 for name in ("step", "sightline", "blockers"))
+    assert not any(has_colour(page, b, other) for b in list(blockers)[:5])
+
+
+def test_sightlines_go_from_a_source_to_a_face(open_page):
+    def change(data):
+        data["sightlines"]["sources"] = packed([7] * len(unpacked(data["sightlines"]["pieces"])))
+        data["proofs"]["kinds"] = packed([6 if kind == 4 else kind for kind in unpacked(data["proofs"]["kinds"])])
+        data["proofs"].update(pieces=packed(unpacked(data["proofs"]["pieces"])[:-1]), sources=packed(unpacked(data["proofs"]["sources"])[:-1]))
+
+    page = open_page("weak", corpus / "general" / "two_rooms.off", "--from-face", 0, change=change)
+    lines = segments_of(page.numbers("sightlines", "ends"))
+    texts = page.data["sightlines"]["texts"]
+    for i, k in list(enumerate(page.numbers("sightlines", "pieces")))[::20]:
+        page.js("sightline.select(arguments[0])", k)
+        assert [item.text for item in page.all("#sightline li")] == ["from " + texts[2 * i], "to " + texts[2 * i + 1]]
+        assert page.text("#sightline p") == "Seen from source 8 along the line"
+        assert ends_of(page, "sightline")[0] == lines[i] and page.js("return sightline.lines('sightline')") == 7
+    box = next(label for label in page.all("#panel label") if label.text == "all of them")
+    box.click()
+    assert ends_of(page, "all") == lines
+    box.click()
+    assert ends_of(page, "all") == [] and page.js("return sightline.drawing.backs") is False
+    # What no proof is written of; leaves that are open; a source.
+    groups = page.numbers("polygons", "groups")
+    pieces = page.numbers("proofs", "pieces")
+    unproved = next(k for k, g in enumerate(groups) if page.data["groups"][g]["role"] == "hidden" and k not in pieces)
+    page.js("sightline.select(arguments[0])", unproved)
+    assert "There is no proof of it on this page." in page.text("#selection")
+    kinds, begin = page.numbers("proofs", "kinds"), page.numbers("proofs", "begin")
+    of_open = [kinds[begin[i]:begin[i + 1]].count(6) for i in range(len(pieces))]
+    i = max(range(len(pieces)), key=lambda i: of_open[i])
+    page.js("sightline.select(arguments[0])", pieces[i])
+    assert of_open[i] == 0 or f"; {of_open[i]} open" in page.text("#proof")
+    page.js("sightline.select(142)")
+    assert page.text("#selected-name") == page.data["groups"][groups[142]]["name"] and "proof" not in page.text("#selection")
+    assert ends_of(page, "sources") == sides_of(page, 142) and has_colour(page, 142, source)
+
+
+def test_hidden_lines_are_dashed_and_what_hides_a_line_lights_up(open_page, town):
+    def change(data):
+        names, kinds = data["lines"]["names"], unpacked(data["lines"]["kinds"])
+        names += [] if "smooth" in names else ["smooth"]
+        data["lines"]["kinds"] = packed([names.index("smooth") if edge % 7 == 0 else kind for edge, kind in zip(unpacked(data["lines"]["edges"]), kinds)])
+
+    page = open_page("see", town, eye, "--lines", change=change)
+    of, kinds = page.numbers("lines", "hidden_by"), [page.data["lines"]["names"][kind] for kind in page.numbers("lines", "kinds")]
+    edges, ends = page.numbers("lines", "edges"), segments_of(page.numbers("lines", "ends"))
+    of_kind = lambda is_hidden: [ends[i] for i in range(len(ends)) if kinds[i] != "smooth" and (of[i] > 0) == is_hidden]
+    assert ends_of(page, "hidden") == of_kind(True) and ends_of(page, "visible") == of_kind(False)
+    # A picture with them, and one without.
+    box = next(label for label in page.all("#panel label") if label.text == "hidden parts, dashed")
+    pixels = lambda places: page.js("""
+        sightline.draw();
+        const view = document.getElementById('view'), gl = view.getContext('webgl2'), scale = view.width / view.clientWidth, all = new Uint8Array(4 * view.width * view.height);
+        gl.readPixels(0, 0, view.width, view.height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+        return arguments[0].map(list => list.map(([x, y]) => {
+          const i = 4 * ((view.height - 1 - Math.floor(y * scale)) * view.width + Math.floor(x * scale));
+          return all[i] + all[i + 1] + all[i + 2];
+        }));
+        """, places)
+    along = lambda line: [[a + s / 60 * (b - a) for a, b in zip(*line)] for s in range(2, 59)]
+
+    def on_canvas(is_hidden):
+        lines = page.js("return arguments[0].map(line => line.map(sightline.onCanvas))", of_kind(is_hidden))
+        return [along(line) for line in lines if None not in line and max(abs(b - a) for a, b in zip(*line)) > 25][:30]
+
+    dashed, whole = on_canvas(True), on_canvas(False)
+    assert len(dashed) > 3 and len(whole) > 3
+    with_lines, black = pixels(dashed), pixels(whole)
+    box.click()
+    assert ends_of(page, "hidden") == [] and ends_of(page, "visible") == of_kind(False)
+    without_lines = pixels(dashed)
+    changed = [sum(abs(a - b) > 30 for a, b in zip(one, two)) / len(one) for one, two in zip(with_lines, without_lines)]
+    assert 0.25 < sorted(changed)[len(changed) // 2] < 0.8, "dashes, and what is between them"
+    dark = [sum(p < 150 for p in one) / len(one) for one in black]
+    assert sorted(dark)[len(dark) // 2] > 0.8, "whole lines on their faces"
+    box.click()
+    assert page.js("return sightline.drawing.outlines") is False and page.js("return sightline.lines('hidden')") > 0
+    inks = sorted(p for one, two in zip(with_lines, without_lines) for p, q in zip(one, two) if q - p > 30)
+    assert inks[len(inks) // 10] > 150, "faces shine through what is hidden"
+    # What hides one, and all parts of its edge.
+    for n in (i for i in range(len(ends)) if kinds[i] != "smooth" and of[i] == 0 and sum(edge == edges[i] for edge in edges) > 2):
+        a, b = page.js("return arguments[0].map(sightline.onCanvas)", ends[n])
+        if max(abs(b[0] - a[0]), abs(b[1] - a[1])) < 40:
+            continue
+        page.click_at((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+        parts = [i for i in range(len(ends)) if edges[i] == edges[n]]
+        hiders = list(dict.fromkeys(of[i] - 1 for i in parts if of[i] > 0))
+        assert ends_of(page, "selection") == [side for k in hiders for side in sides_of(page, k)] + [ends[i] for i in parts]
+        assert [item.text.split("\n")[1] for item in page.all("#edge-parts li")] == [page.data["lines"]["texts"][i] for i in parts]
+        break
+    else:
+        pytest.fail("no edge of three parts that is long enough")
+    # A hidden part, and a face, away from all other lines.
+    at, k = page.js("""
+        const far = (p, [a, b]) => {
+          const d = [b[0] - a[0], b[1] - a[1]], l = d[0] * d[0] + d[1] * d[1], t = l > 0 ? Math.max(0, Math.min(1, ((p[0] - a[0]) * d[0] + (p[1] - a[1]) * d[1]) / l)) : 0;
+          return Math.hypot(a[0] + t * d[0] - p[0], a[1] + t * d[1] - p[1]);
+        };
+        const lines = ['hidden', 'visible'].flatMap(name => sightline.linesOf(name)).map(line => [line.from, line.to].map(sightline.onCanvas)).filter(([a, b]) => a && b);
+        const hidden = sightline.linesOf('hidden').map(line => [line.from, line.to].map(sightline.onCanvas)).filter(([a, b]) => a && b);
+        const middles = hidden.map(([a, b]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]);
+        const part = middles.find(at => at[0] > 150 && at[1] > 60 && at[1] < 550 && at[0] < 700 && lines.filter(line => far(at, line) <= 5).length === 1);
+        for (let k = arguments[0]; k < arguments[1]; ++k) {
+          const at = sightline.middleOf(k);
+          if (at && sightline.pickAt(...at) === k && lines.every(line => far(at, line) > 8)) return [part, k];
+        }
+        return [part, -1];
+        """, page.data["base"], page.data["polygons"]["count"])
+    page.click_on(k)
+    assert k >= 0 and page.js("return sightline.selected") == k and page.all("#edge-parts") == []
+    page.click_at(*at)
+    assert "hidden by face" in page.text("#edge-parts")
+
+
+def test_the_unrolled_sphere_outlines_what_is_selected(open_page):
+    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
+    # Some, and all that are across the border of the sheet, behind the eye.
+    place = page.data["eye"]["place"]
+    def turned(p):
+        angle = math.atan2(p[1] - place[1], p[0] - place[0]) - math.atan2(-place[1], -place[0])
+        return (angle + 3 * math.pi) % (2 * math.pi) - math.pi
+    across = [k for k in range(page.data["base"], page.data["polygons"]["count"])
+              if any(abs(turned(p) - turned(q)) > math.pi and min(abs(turned(p)), abs(turned(q))) > math.pi / 2 for p, q in sides_of(page, k))]
+    assert across
+    ks = across[:2] + list(range(page.data["base"], page.data["polygons"]["count"], 40))
+    changed = page.js("""
+        const copy = document.createElement('canvas'), counts = [];
+        copy.width = 1024, copy.height = 512;
+        const pen = copy.getContext('2d', {willReadFrequently: true});
+        const all = () => { pen.drawImage(document.getElementById('sphere'), 0, 0); return new Uint32Array(pen.getImageData(0, 0, 1024, 512).data.buffer); };
+        const before = all(), differs = (p, q) => Math.abs((p & 255) - (q & 255)) > 40;
+        for (const k of arguments[0]) {
+          sightline.select(k);
+          const now = all();
+          let differ = 0, longest = 0;
+          for (let y = 0; y < 512; ++y)
+            for (let x = 0, run = 0; x < 1024; ++x) {
+              const is = differs(before[1024 * y + x], now[1024 * y + x]);
+              differ += is, run = is ? run + 1 : 0, longest = Math.max(longest, run);
+            }
+          counts.push([differ, longest]);
+        }
+        sightline.select(-1);
+        return [counts, all().every((p, i) => !differs(p, before[i]))];
+        """, ks)
+    assert all(differ > 30 for differ, _ in changed[0]) and changed[1]
+    assert all(longest < 900 for _, longest in changed[0]), "who is across the border of the sheet has no line along all of it"
+
+
+def test_faces_that_doubles_err_in_have_colours_of_their_own(open_page, tmp_path):
+    def change(data):
+        data["doubles"] = {"missing": packed([0, *range(10, 50)]), "extra": packed([3])}
+
+    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2", change=change)
+    assert page.text("#errors") == "missing: " + ", ".join(map(str, [0, *range(10, 39)])) + " …. shown: 3."
+    own = looks_of(page, 0)
+    above = {face: k for k, face in enumerate(page.numbers("polygons", "faces")) if k >= page.data["base"]}
+    one, two = next((above[face], above[face + 6]) for face in above if face + 6 in above)
+    assert shares(looks_of(page, one)) != pytest.approx(shares(looks_of(page, two)), abs=0.02), "six colours, of each three"
+    page.one("#doubles").click()
+    faces = page.numbers("polygons", "faces")
+    assert has_colours(page, {k: front if face in (0, *range(10, 50)) else source if face == 3 else hidden if k < page.data["base"] else face_colour
+                              for k, face in enumerate(faces)})
+    page.one("#doubles").click()
+    assert looks_of(page, 0) == own
+
+
+def test_arcs_have_colours_and_lead_to_other_faces(open_page, tmp_path):
+    scene = tmp_path / "soup.off"
+    run("generate", "soup", "--size", 500, "--out", scene)
+    page = open_page("graph", scene)
+    arcs = json.loads(run("graph", scene, "--arcs", "--json", "-"))["result"]["arc_list"]
+    in_front, behind = {a[0][0] for a in arcs if a[1] == [7, 0]}, {a[1][0] for a in arcs if a[0] == [7, 0]}
+    assert in_front & behind and in_front - behind and behind - in_front
+    page.js("sightline.select(7)")
+    assert has_colours(page, {k: (250, 250, 245) if k == 7 else undecided if k in in_front & behind else front if k in in_front
+                              else source if k in behind else face_colour for k in range(500)})
+    for part, faces in zip(page.all("#arcs ul.list"), (in_front, behind)):
+        items = page.js("return [...arguments[0].children].map(item => item.textContent)", part)
+        assert len(items) == min(101, len(faces)) and set(items[:100]) <= {f"face {k}" for k in faces}
+        assert len(faces) <= 100 or items[100] == f"and {len(faces) - 100} more"
+    item = page.all("#arcs ul.list button")[2]
+    k = int(item.text.split()[1])
+    page.js("arguments[0].click()", item)
+    assert page.js("return sightline.selected") == k and page.text("#selected-name").startswith(f"face {k}, ")
+
+    def change(data):
+        del data["arcs"]
+        data["components"] = packed([4, 0, 4])
+
+    page = open_page("graph", corpus / "general" / "three_bars.off", name="bars.html", change=change)
+    page.all("section ul.list button")[0].click()
+    assert len(ends_of(page, "cycle")) == 2 * (len(sides_of(page, 0)) + len(sides_of(page, 2)))
+    assert has_colour(page, 0, front) and has_colour(page, 1, face_colour) and has_colour(page, 2, front)
+    page.js("sightline.select(0)")
+    assert page.text("#selected-name") == "face 0, component 5, a cycle of 2"
+    assert "Arcs are not known" in page.text("#selection") and has_colour(page, 0, front)
+
+
+def test_one_looks_from_the_path_and_back(open_page):
+    def change(data):
+        data["frames"]["at_infinity"] = packed([2])
+        without(data, {1, 4})
+
+    for changed in (None, change):
+        page = open_page("cutset", corpus / "general" / "cube.off", "--orbit", 3, name=f"{changed is None}.html", change=changed)
+        places = [tuple(place) for place in page.data["frames"]["places"]]
+        assert ends_of(page, "path") == list(zip(places, places[1:]))
+        on, numbers = page.numbers("frames", "on_view"), page.numbers("polygons", "numbers") if changed else range(6)
+        edges = {key: page.numbers("edges", key) for key in page.data["edges"]}
+        before = set()
+        for n in (1, 2, 3):
+            page.slide(n)
+            is_on = {k for k in numbers if on[(6 * (n - 1) + k) // 8] >> (6 * (n - 1) + k) % 8 & 1}
+            assert is_on - before, "a face has just become on-view"
+            for k, number in enumerate(numbers):
+                wanted = hidden if number not in is_on else new if n > 1 and number not in before else seen
+                assert has_colour(page, k, wanted), (n, k)
+            before = is_on
+            cut = [sides_of(page, list(numbers).index(a))[c] for a, c, b in zip(edges["pieces"], edges["corners"], edges["others"])
+                   if a in numbers and b in numbers and (a in is_on) != (b in is_on)]
+            assert ends_of(page, "cut") == cut
+            assert page.text("#frame").startswith(f"{len(is_on)} polygons on-view" + (" of those drawn, " if changed else ", "))
+            assert page.text("#viewpoint").startswith(f"{'direction' if changed and n == 2 else 'viewpoint'} {n}: ")
+            assert len(ends_of(page, "eye")) == 4 and ends_of(page, "eye")[3][0] == places[n - 1]
+        assert page.js("return sightline.camera.atEye") is False
+        page.one("#follow").click()
+        assert page.js("return sightline.camera.atEye") is True and ends_of(page, "eye") == []
+        page.one("#follow").click()
+        assert page.js("return sightline.camera.atEye") is False and len(ends_of(page, "eye")) == 4
+        if changed:
+            page.js("sightline.select(1)")
+            assert page.text("#selected-name").startswith("face 2")
+
+
+def test_a_wall_hides_lines_behind_it_from_an_eye_close_to_it(open_page):
+    def change(data):
+        data["frames"]["places"] = [[0.6, 0, 0], [-0.5, -0.2, 0], [-0.5, 0.2, 0.02]]
+
+    page = open_page("cutset", corpus / "general" / "cube.off", "--orbit", 3, change=change)
+    page.one("#follow").click()
+    pixel, k = page.js("""
+        const view = document.getElementById('view'), gl = view.getContext('webgl2'), pixels = new Uint8Array(4 * 121);
+        sightline.draw();
+        const scale = view.width / view.clientWidth, [x, y] = sightline.onCanvas([-0.5, 0, 0.01]);
+        gl.readPixels(Math.round(x * scale) - 5, view.height - 6 - Math.round(y * scale), 11, 11, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        return [[...pixels], sightline.pickAt(x, y)];
+        """)
+    assert page.js("return sightline.camera.atEye") is True and k >= 0
+    assert all(abs(pixel[i + c] - own) < 3 for i in range(0, len(pixel), 4) for c, own in enumerate(looks_of(page, k)))
+
+
+def test_a_source_far_from_the_scene_is_drawn(open_page):
+    page = open_page("weak", corpus / "general" / "cube.off", "--from", "9,6,-5 11,6,-5 11,8,-5 9,8,-5")  # behind the cube, to the right
+    pixel = page.js("""
+        const view = document.getElementById('view'), gl = view.getContext('webgl2'), pixel = new Uint8Array(4);
+        sightline.drawing.backs = true;
+        sightline.draw();
+        const scale = view.width / view.clientWidth, [x, y] = sightline.middleOf(arguments[0]);
+        gl.readPixels(Math.round(x * scale), view.height - 1 - Math.round(y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+        return [...pixel];
+        """, page.data["base"])
+    assert pixel[2] > 1.5 * pixel[0], "blue, as sources are"
+
+
+def test_faces_that_are_left_out_are_not_taken_for_others(open_page):
+    page = open_page("graph", corpus / "general" / "three_bars.off", change=lambda data: without(data, {0}))
+    arcs = json.loads(run("graph", corpus / "general" / "three_bars.off", "--arcs", "--json", "-"))["result"]["arc_list"]
+    page.js("sightline.select(0)")
+    assert page.text("#selected-name").startswith("face 1, ")
+    lists = [[b.text for b in part.find_elements("css selector", "button")] for part in page.all("#arcs ul.list")]
+    assert lists == [[f"face {a[0][0]}" for a in arcs if a[1][0] == 1 and a[0][0] > 0], [f"face {a[1][0]}" for a in arcs if a[0][0] == 1 and a[1][0] > 0]]
+
+
+def test_cells_show_what_looks_into_them(open_page):
+    page = open_page("cells", corpus / "general" / "two_rooms.off")
+    rooms = {face for cell in page.data["cells"] if cell["kind"] == "room" for face in unpacked(cell["faces"])}
+    label = next(label for label in page.all("#panel label") if "no room" in label.text)
+    buttons = next(section for section in page.all("#panel section") if section.text.lower().startswith("all cells")).find_elements("css selector", "button")
+    for cell, made in list(zip(page.data["cells"], buttons, strict=True))[:3] + [(page.data["cells"][-1], buttons[-1])]:
+        page.js("arguments[0].click()", made)
+        own = set(unpacked(cell["faces"]))
+        assert page.text("#cell p") == f"cell {cell['cell']}, {cell['kind']}, about {cell['inside']}: {len(own)} faces look into it"
+        assert shown(page) == sorted(rooms | own)
+        for k in sorted(own)[:2] + sorted(rooms - own)[:2]:
+            assert has_colour(page, k, seen if k in own else face_colour)
+        for layer, key in (("cell", "walls"), ("portals", "portals")):
+            assert ends_of(page, layer) == segments_of(unpacked(cell[key]))
+    label.click()
+    assert shown(page) == list(range(142)) and page.js("return sightline.drawing.backs") is False
+    label.click()
+
+
+def test_of_a_face_the_cells_that_see_it(open_page):
+    def change(data):
+        data["cells"][1]["undecided"] = packed([unpacked(data["cells"][1]["visible"])[0] + 1000, unpacked(data["rooms"])[0], unpacked(data["rooms"])[1]])
+        data["cells"][1]["visible"] = packed(unpacked(data["rooms"])[2:4])
+
+    page = open_page("pvs", corpus / "general" / "two_rooms.map", change=change)
+    cells, rooms = page.data["cells"], page.numbers("rooms")
+    page.all("section ul.list button")[1].click()
+    assert page.text("#cell").endswith(": sees 2 faces, 3 undecided")
+    for i, (name, colour) in enumerate([("undecided", undecided)] * 2 + [("visible", seen)] * 2 + [("hidden", hidden)]):
+        page.js("sightline.select(arguments[0])", rooms[i])
+        assert page.text("#selected-name") == f"face {rooms[i]}, {name}" and has_colour(page, rooms[i], colour)
+        by = [cell["cell"] for cell in cells if rooms[i] in unpacked(cell["visible"])]
+        assert page.text("#seen-from p") == f"Seen from {len(by)} of {len(cells)} cells:"
+        assert [b.text for b in page.all("#seen-from button")] == [f"cell {cell}" for cell in by]
+    assert ends_of(page, "cell") == segments_of(unpacked(cells[1]["walls"]))
+    assert shown(page) == sorted(rooms)
+    next(label for label in page.all("#panel label") if "no cell" in label.text).click()
+    assert shown(page) == list(range(71))
+
+
+def test_a_result_has_other_colours_where_it_is_turned_round(open_page, tmp_path):
+    small = tmp_path / "small.off"
+    small.write_text(
+        "OFF 8 6 0\n" + "".join(f"{x} {y} {z}\n" for x in (0.25, 0.5) for y in (0.25, 0.5) for z in (0.25, 0.5))
+        + "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n")
+    page = open_page("boolean", "difference", corpus / "general" / "cube.off", small)
+    groups, faces, of = (page.numbers(*keys) for keys in (("polygons", "groups"), ("polygons", "faces"), ("operand_faces",)))
+    assert sorted(groups) == [0] * 6 + [3] * 6 and page.data["groups"][3]["name"] == "small.off, turned round"
+    for k in range(12):
+        page.js("sightline.select(arguments[0])", k)
+        assert page.text("#selected-name") == f"face {faces[k]}: {page.data['groups'][groups[k]]['name']}, face {of[faces[k]]} of its solid"
+        assert has_colour(page, k, [c + (245 - c) * 0.55 for c in source] if groups[k] else [c + (245 - c) * 0.2 for c in front])
+
+
+def test_what_was_not_done_is_said(open_page):
+    def change(data):
+        data["methods"][1]["status"] = "refused"
+        data["methods"][0]["errors"] = {"wrong_pixels": 1}
+        del data["methods"][0]["missing"], data["methods"][0]["extra"], data["methods"][1]["missing"], data["methods"][1]["extra"]
+
+    page = open_page("compare", corpus / "general" / "two_rooms.off", "see", "--eye", "1,1,2", "--sizes", 16, "--bits", 16, change=change)
+    assert page.js("return sightline.camera.atEye") is True
+    items = page.all("#methods button")
+    assert items[1].text == f"{page.data['methods'][1]['name']}: refused" and items[0].text.endswith("MB; wrong pixels 1")
+
+
 # ---- What needs no browser
+
+
+def test_mutants_stand_on_texts_of_pages_and_are_found_by_tests():
+    here = Path(__file__).parent
+    texts = {path.name: path.read_text() for path in (here.parents[1] / "apps" / "page").glob("*.*") if path.suffix in (".js", ".css", ".html")}
+    tests = "".join(path.read_text() for path in here.glob("test_*.py"))
+    for mutant in json.loads((here / "mutants.json").read_text()):
+        assert texts[mutant["file"]].count(mutant["text"]) == 1 == sum(text.count(mutant["text"]) for text in texts.values()), mutant
+        assert f"def {mutant['found']}(" in tests if "found" in mutant else mutant["why"], mutant
 
 
 def test_a_page_stays_small(tmp_path):

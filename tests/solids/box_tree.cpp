@@ -52,6 +52,7 @@ TEST(Box_tree, pairs_of_boxes_that_meet_come_once_and_no_others) {
         for (; met != 0; met &= met - 1) {
           const std::uint32_t j = first + static_cast<std::uint32_t>(std::countr_zero(met));
           ASSERT_LT(j, tree.order().size());
+          ASSERT_NE(i, j);
           const auto [least, most] = std::minmax(tree.order()[i], tree.order()[j]);
           ++told[{least, most}];
         }
