@@ -136,6 +136,14 @@ TEST_F(PlantedBreach, a_source_that_does_not_begin_with_its_header) {
   EXPECT_EQ(found(), Found{});
   write("kernel/number.cpp", "#include <algorithm>\n\n#include <sightline/kernel/number.h>\n");
   EXPECT_EQ(found(), Found{"kernel/number.cpp:1: does not begin with <sightline/kernel/number.h>"});
+  write("kernel/plane.h", "#pragma once\n");
+  write("kernel/number.cpp", "#include <sightline/kernel/plane.h>\n");
+  EXPECT_EQ(found(), Found{"kernel/number.cpp:1: does not begin with <sightline/kernel/number.h>"});
+  write("kernel/number.cpp", "#include <sightline/kernel/number.h>\n");
+  write("kernel/digits.cpp", "#include <sightline/kernel/number.h>\n");  // the rest of number.h
+  EXPECT_EQ(found(), Found{});
+  write("kernel/digits.cpp", "#include <sightline/io/off.h>\n");
+  EXPECT_FALSE(found().empty());
 }
 
 TEST_F(PlantedBreach, a_dependency_that_is_not_announced) {
