@@ -30,6 +30,7 @@ Double_ray in_doubles(const Exact_ray& ray) {
 #include <limits>
 #include <mutex>
 #include <string>
+#include <thread>
 
 namespace sightline::app {
 
@@ -46,6 +47,11 @@ using Floats = std::array<float, 3>;
 Floats rounded(const Exact_point& p) {
   return {static_cast<float>(nearest_double(p[0])), static_cast<float>(nearest_double(p[1])),
           static_cast<float>(nearest_double(p[2]))};
+}
+
+/// As long as it has a device, Embree keeps TBB to as many, which has a message for whoever asks for more.
+int no_more_than_processors(int threads) {
+  return std::min(threads, std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
 }
 
 }  // namespace
@@ -154,7 +160,7 @@ Traced_hit Traced_scene::first(const Double_ray& ray) const {
 Piece_image Traced_scene::image(const Pixel_view& pixels, const Image_options& options) const {
   Piece_image image{pixels.width, pixels.height, {}, {}, {}};
   image.pieces.assign(std::size_t{pixels.width} * pixels.height, Piece_image::nothing);
-  run_with_threads(options.threads, [&] {
+  run_with_threads(no_more_than_processors(options.threads), [&] {
     std::mutex mutex;
     std::size_t done = 0;
     parallel_for(pixels.height, [&](std::size_t y) {
@@ -178,7 +184,7 @@ Mean_image Traced_scene::means(const Pixel_view& pixels, unsigned n,
   finer.width *= n;
   finer.height *= n;
   const double share = 1.0 / (static_cast<double>(n) * n);
-  run_with_threads(options.threads, [&] {
+  run_with_threads(no_more_than_processors(options.threads), [&] {
     std::mutex mutex;
     std::size_t done = 0;
     parallel_for(pixels.height, [&](std::size_t y) {

@@ -256,6 +256,12 @@ TEST_F(Json_output, more_threads_than_processors_are_no_reason_for_a_message) {
   const Outcome r = run({"bsp", cornell, "--threads", "64"}, {60, 65536});
   EXPECT_EQ(r.code, done) << r;
   EXPECT_EQ(r.err, "");
+  const Outcome rays = run(
+      {"render", cornell, "--method", "rays", "--size", "16x16", "--threads", "64", "--png", path("a.png").string()},
+      {60, 65536});
+  if (rays.code == usage) return;  // built without Embree
+  EXPECT_EQ(rays.code, done) << rays;
+  EXPECT_EQ(rays.err, "");
 }
 
 TEST_F(Json_output, the_seed_is_used_and_repeats) {
