@@ -75,12 +75,15 @@ const std::vector<Part>& Model::Inside::parts() const {
   return parts_.get([&] {
     std::vector<Part> parts;
     parts.reserve(scene.pieces().size());
-    for (const Piece& piece : scene.pieces()) {
-      Part& part = parts.emplace_back(Part{piece.face, piece.number, {}});
-      for (const Piece_corner& corner : scene.corners(piece)) part.corners.push_back(scene.position(corner.point));
-    }
+    for (const Piece& piece : scene.pieces()) parts.push_back(part(piece));
     return parts;
   });
+}
+
+Part Model::Inside::part(const Piece& piece) const {
+  Part part{piece.face, piece.number, {}};
+  for (const Piece_corner& corner : scene.corners(piece)) part.corners.push_back(scene.position(corner.point));
+  return part;
 }
 
 const Bsp_tree<Exact_traits>& Model::Inside::tree(const Asking& asking) const {
@@ -151,8 +154,8 @@ Facts Model::facts() const { return inside_->facts(); }
 
 double Model::area(Face_id face) const {
   double sum = 0;
-  for (const Part& part : parts())
-    if (part.face == face) sum += part.area();
+  for (const Piece& piece : inside_->scene.pieces())
+    if (piece.face == face) sum += inside_->part(piece).area();
   return sum;
 }
 

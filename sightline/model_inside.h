@@ -38,6 +38,7 @@ struct Model::Inside {
   }
 
   const std::vector<Part>& parts() const;
+  Part part(const Piece& piece) const;
   const Bsp_tree<Exact_traits>& tree(const Asking& asking) const;
   const Piece_boxes& boxes() const {
     return boxes_.get([&] { return Piece_boxes(scene); });

@@ -125,8 +125,8 @@ Weak_visibility possibly_visible_from_solids(const Model& model, const std::vect
 
 std::vector<std::vector<Exact_point>> sources_of(const Model& model, Face_id face) {
   std::vector<std::vector<Exact_point>> sources;
-  for (const Part& part : model.parts())
-    if (part.face == face) sources.push_back(part.corners);
+  for (const Piece& piece : model.scene().pieces())
+    if (piece.face == face) sources.push_back(model.inside()->part(piece).corners);
   if (sources.empty())
     throw std::out_of_range("face " + std::to_string(face) + " is not there, or was left out: see left_out()");
   return sources;

@@ -45,6 +45,7 @@ void main() {
   vec4 c = last ? q : p;
   c.xy += (corner == 0 || corner == 2 || corner == 4 ? -1.0 : 1.0) * 0.5 * kind.x * normal / size * c.w;
   c.z -= bias * max(2e-3 * near, 6e-7 * c.w);  // by a thousandth of the way to it, but no less than depths are told apart by
+  c.z = min(c.z, 0.999999 * c.w);  // lines may lead beyond all faces
   along = vec2(last ? l * c.w : 0.0, c.w);
   colour = paint;
   dash = kind.y;

@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <iostream>
@@ -73,6 +74,25 @@ void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_
     if (const auto [found, is_new] = places.emplace(place_of(output.name), output.name); !is_new)
       throw Usage_error(fmt::format("{} {}: that is {} by a link; remove it, or name another folder", output.option,
                                     output.name, found->second));
+  }
+}
+
+void check_folders(const std::vector<Named_file>& outputs, const std::vector<std::string>& made) {
+  for (const Named_file& output : outputs) {
+    if (output.name == "-") continue;
+    std::error_code error;
+    const fs::path file = fs::absolute(behind_links(output.name)), folder = file.parent_path();
+    const auto refuse = [&](const std::string& why) {
+      throw std::runtime_error(fmt::format("{}: cannot be written: {}", output.name, why));
+    };
+    if (fs::is_directory(file, error)) refuse("that is a folder; name a file");
+    const fs::file_status status = fs::status(folder, error);
+    if (fs::is_directory(status) || !fs::status_known(status)) continue;
+    const fs::path place = place_of(folder);
+    if (std::any_of(made.begin(), made.end(), [&](const std::string& name) { return place_of(name) == place; }))
+      continue;
+    refuse(folder.string() + (fs::exists(status) ? " is a file, and no folder; name another file"
+                                                 : " is not there; make that folder, or name another file"));
   }
 }
 

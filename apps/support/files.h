@@ -22,6 +22,10 @@ struct Named_file {
 void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs,
                  const std::vector<Named_file>& many = {});
 
+/// What would be told after all work is told before it. Errors: std::runtime_error where the folder of an output is
+/// none, and none of those that are `made` on the way, or the output is a folder.
+void check_folders(const std::vector<Named_file>& outputs, const std::vector<std::string>& made);
+
 /// All bytes of an input. Errors: Input_error.
 std::string read_input(const std::string& name);
 /// The file that an input is: what "-" stands for has a name too.

@@ -213,7 +213,12 @@ void Command::set_action(std::function<Exit()> action) const {
 
 void Command::set_printing_action(std::function<Exit()> action) const {
   app_->callback([app = app_, action = std::move(action)] {
-    check_files(files_of(*app, input_file), files_of(*app, output_file));
+    const std::vector<Named_file> outputs = files_of(*app, output_file);
+    check_files(files_of(*app, input_file), outputs);
+    std::vector<std::string> named;  // one of them may be a folder that the command makes
+    for (const CLI::Option* option : app->get_options())
+      named.insert(named.end(), option->results().begin(), option->results().end());
+    check_folders(outputs, named);
     if (const Exit exit = action(); exit != Exit::done) throw CLI::RuntimeError(static_cast<int>(exit));
   });
 }

@@ -51,7 +51,8 @@ void add_objects(Polygon_soup& soup, const py::array& points) {
 
 // ---- Faces
 
-[[noreturn]] void fail_corner(std::size_t face, std::int64_t corner, std::size_t points) {
+template <class T>
+[[noreturn]] void fail_corner(std::size_t face, T corner, std::size_t points) {
   throw std::out_of_range("F: face " + std::to_string(face) + " has the corner " + std::to_string(corner) +
                           ", and there are " + std::to_string(points) + " points, counted from 0");
 }
@@ -65,7 +66,7 @@ bool add_faces(Polygon_soup& soup, const py::array& corners, std::span<const std
   std::vector<Point_id> loop;
   const auto push_corner = [&](std::size_t face, T corner) {
     if (static_cast<std::uint64_t>(corner) >= points)  // a negative one too
-      fail_corner(face, static_cast<std::int64_t>(corner), points);
+      fail_corner(face, corner, points);
     loop.push_back(static_cast<Point_id>(corner));
   };
   const auto typed = py::reinterpret_borrow<py::array_t<T>>(corners);

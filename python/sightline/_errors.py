@@ -10,6 +10,8 @@ class InputError(ValueError):
     where it is in text; all are None where no place is to blame.
     """
 
+    __module__ = "sightline"
+
     file: str
     line: Optional[int]
     column: Optional[int]
@@ -29,3 +31,5 @@ class InputError(ValueError):
 
 class OutOfBudget(TimeoutError):
     """The seconds of `budget` ran out before there was an answer: undecided."""
+
+    __module__ = "sightline"

@@ -1015,6 +1015,26 @@ def test_a_wall_hides_lines_behind_it_from_an_eye_close_to_it(open_page):
     assert all(abs(pixel[i + c] - own) < 3 for i in range(0, len(pixel), 4) for c, own in enumerate(looks_of(page, k)))
 
 
+def test_a_path_that_leads_far_behind_the_scene_is_drawn_as_far_as_it_goes(open_page):
+    far = [[-40, 14, 3], [-60, 24, 5]]
+
+    def change(data):
+        data["frames"]["places"] = [[3, 0, 0], *far]
+
+    page = open_page("cutset", corpus / "general" / "cube.off", "--orbit", 3, change=change)
+    page.one("#follow").click()
+    pixels = page.js("""
+        const view = document.getElementById('view'), gl = view.getContext('webgl2'), pixels = new Uint8Array(4 * 121);
+        sightline.camera.field = 60;
+        sightline.draw();
+        const scale = view.width / view.clientWidth, [x, y] = sightline.onCanvas(arguments[0]);
+        gl.readPixels(Math.round(x * scale) - 5, view.height - 6 - Math.round(y * scale), 11, 11, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        return [...pixels];
+        """, [(a + b) / 2 for a, b in zip(*far)])
+    assert page.js("return sightline.camera.atEye") is True
+    assert len(set(zip(*[iter(pixels)] * 4))) > 1, "nothing but paper"
+
+
 def test_a_source_far_from_the_scene_is_drawn(open_page):
     page = open_page("weak", corpus / "general" / "cube.off", "--from", "9,6,-5 11,6,-5 11,8,-5 9,8,-5")  # behind the cube, to the right
     pixel = page.js("""

@@ -122,6 +122,28 @@ TEST_F(Boolean, says_volumes_that_doubles_do_not_hold) {
   EXPECT_NE(r.err.find("large.obj: a coordinate is beyond what floats hold"), std::string::npos) << r;
 }
 
+TEST_F(Boolean, that_snapping_leaves_broken_has_an_exit_code) {
+  const std::string a = box("a.off", {16000000, 16000000, 16000000}, {16000002, 16000002, 16000002});
+  std::string askew = "OFF\n8 6 0\n";  // turned about z, at less than the step of floats from there
+  for (int k = 0; k < 8; ++k) {
+    const int x = (k & 4) / 2, y = k & 2, z = 2 * (k & 1);
+    const auto at = [](int numerator, int denominator) {
+      return std::to_string(16000000 * std::int64_t{denominator} + numerator) + '/' + std::to_string(denominator);
+    };
+    askew += at(9 * x - 12 * y + 20, 15) + ' ' + at(28 * x + 21 * y + 5, 35) + ' ' + at(3 * z + 1, 5) + '\n';
+  }
+  const std::string b = file("b.qoff", askew + "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n");
+  const std::string out = path("u.off").string();
+  const Outcome r =
+      run({"boolean", "symmetric-difference", a, b, "--out", out, "--round", "float", "--snap", "--json", "-"});
+  EXPECT_EQ(r.code, disagreement) << r;
+  EXPECT_EQ(r.json()["result"]["rounding"]["sound"], false) << r;
+  EXPECT_TRUE(fs::exists(out)) << "what nearest points give";
+  EXPECT_EQ(run({"boolean", "symmetric-difference", a, b, "--out", out, "--round", "float"}).code, done)
+      << "not asked for";
+  EXPECT_EQ(run({"boolean", "symmetric-difference", a, b, "--out", out, "--snap"}).code, done) << "doubles hold it";
+}
+
 TEST_F(Boolean, refuses_options_that_would_do_nothing_and_files_that_nothing_can_be_written_to) {
   const std::string a = box("a.off", {0, 0, 0}, {3, 3, 3}), b = box("b.off", {1, 1, 1}, {4, 4, 4});
   const auto code = [&](const std::vector<std::string>& more) {

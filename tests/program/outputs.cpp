@@ -219,15 +219,17 @@ TEST_F(Outputs, go_into_pipes_and_through_links) {
 
 TEST_F(Outputs, that_cannot_be_written_name_the_reason) {
   const std::string scene = file("s.off", cube), here = path("").string();
-  for (const auto& [name, why] :
-       std::vector<std::pair<std::string, std::string>>{{"/dev/full", "No space left on device"},
-                                                        {path("no/such").string(), "No such file or directory"},
-                                                        {here, "Is a directory"},
-                                                        {path("s.off/x").string(), "Not a directory"}}) {
+  for (const auto& [name, why] : std::vector<std::pair<std::string, std::string>>{
+           {"/dev/full", "No space left on device"},
+           {path("no/such").string(), path("no").string() + " is not there; make that folder, or name another file"},
+           {here, "that is a folder; name a file"},
+           {path("s.off/x").string(), scene + " is a file, and no folder; name another file"}}) {
     const Outcome r = run({"order", scene, "--certificate", name});
     EXPECT_EQ(r.code, bad_input) << r;
     EXPECT_EQ(r.err, "sightline: " + name + ": cannot be written: " + why + "\n") << r;
   }
+  const Outcome early = run({"order", file("wrong.off", "nothing"), "--certificate", path("no/such").string()});
+  EXPECT_NE(early.err.find("no is not there; make that folder"), std::string::npos) << "before it is read: " << early;
 }
 
 // ---- Standard output

@@ -15,7 +15,7 @@ constexpr std::size_t most_bounds = 24;
 constexpr double nothing = 1e-9, past = 1e-7;
 
 template <class Number>
-using Line = std::array<Number, 6>;
+using Pluecker_in = std::array<Number, 6>;
 
 /// A line that bounds a cell: direction, then moment.
 struct Bound {
@@ -26,12 +26,12 @@ struct Bound {
 
 /// Moment, then direction: its product with another line is 0 where they meet.
 template <class Number>
-Line<Number> dual(const Line<Number>& l) {
+Pluecker_in<Number> dual(const Pluecker_in<Number>& l) {
   return {l[3], l[4], l[5], l[0], l[1], l[2]};
 }
 
 template <class Number>
-Number meeting(const Line<Number>& a, const Line<Number>& b) {
+Number meeting(const Pluecker_in<Number>& a, const Pluecker_in<Number>& b) {
   Number sum = 0;
   for (std::size_t k = 0; k < 6; ++k) sum += a[k] * b[(k + 3) % 6];
   return sum;
@@ -76,7 +76,8 @@ using Four = std::array<const Bound*, 4>;
 /// Two lines that all lines which meet four others are combinations of, those on no quadric included. False where the
 /// four are dependent.
 template <class Number>
-bool span_of_meeting(std::array<Line<Number>, 4> rows, const Number& zero, std::array<Line<Number>, 2>& basis) {
+bool span_of_meeting(std::array<Pluecker_in<Number>, 4> rows, const Number& zero,
+                     std::array<Pluecker_in<Number>, 2>& basis) {
   std::array<std::size_t, 4> pivots{};
   std::array<bool, 6> used{};
   for (std::size_t r = 0; r < 4; ++r) {
@@ -97,7 +98,7 @@ bool span_of_meeting(std::array<Line<Number>, 4> rows, const Number& zero, std::
   std::size_t next = 0;
   for (std::size_t c = 0; c < 6; ++c) {
     if (used[c]) continue;
-    Line<Number>& v = basis[next++];
+    Pluecker_in<Number>& v = basis[next++];
     v = {};
     v[c] = 1;
     for (std::size_t r = 0; r < 4; ++r) v[pivots[r]] = -rows[r][c];
@@ -107,7 +108,7 @@ bool span_of_meeting(std::array<Line<Number>, 4> rows, const Number& zero, std::
 
 /// Where a line meets a plane, in homogeneous coordinates; the last one is 0 where they are parallel.
 template <class Number>
-std::array<Number, 4> meet(const Line<Number>& l, const std::array<Number, 4>& h) {
+std::array<Number, 4> meet(const Pluecker_in<Number>& l, const std::array<Number, 4>& h) {
   const std::array<Number, 3> n{h[0], h[1], h[2]}, d{l[0], l[1], l[2]}, m{l[3], l[4], l[5]};
   const std::array<Number, 3> x = cross(n, m);
   return {Number(x[0] - h[3] * d[0]), Number(x[1] - h[3] * d[1]), Number(x[2] - h[3] * d[2]), Number(dot(n, d))};
@@ -165,10 +166,10 @@ bool nearly_touches(const Line_cell& cell, const std::vector<Bound>& bounds, con
 
 /// The rational lines that meet four bounds.
 std::vector<Exact_pluecker> rational_lines(const Four& four) {
-  std::array<Line<Rational>, 4> rows;
+  std::array<Pluecker_in<Rational>, 4> rows;
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t x = 0; x < 6; ++x) rows[k][x] = four[k]->exact[(x + 3) % 6];
-  std::array<Line<Rational>, 2> basis;
+  std::array<Pluecker_in<Rational>, 2> basis;
   if (!span_of_meeting(rows, Rational(0), basis)) return {};
   const Rational a = meeting(basis[0], basis[0]), b = meeting(basis[0], basis[1]), c = meeting(basis[1], basis[1]),
                  discriminant = b * b - a * c;
@@ -186,7 +187,7 @@ std::vector<Exact_pluecker> rational_lines(const Four& four) {
   }
   std::vector<Exact_pluecker> lines;
   for (const auto& [u, v] : solutions) {
-    Line<Rational> l;
+    Pluecker_in<Rational> l;
     Integer common = 1;
     for (std::size_t k = 0; k < 6; ++k) {
       l[k] = u * basis[0][k] + v * basis[1][k];
