@@ -88,11 +88,11 @@ void check_folders(const std::vector<Named_file>& outputs, const std::vector<std
     if (fs::is_directory(file, error)) refuse("that is a folder; name a file");
     const fs::file_status status = fs::status(folder, error);
     if (fs::is_directory(status) || !fs::status_known(status)) continue;
-    const fs::path place = place_of(folder);
-    if (std::any_of(made.begin(), made.end(), [&](const std::string& name) { return place_of(name) == place; }))
-      continue;
-    refuse(folder.string() + (fs::exists(status) ? " is a file, and no folder; name another file"
-                                                 : " is not there; make that folder, or name another file"));
+    const bool is_file = fs::exists(status);
+    const auto is_there_then = [&](const std::string& name) { return place_of(name) == place_of(folder.string()); };
+    if (!is_file && std::any_of(made.begin(), made.end(), is_there_then)) continue;
+    refuse(folder.string() + (is_file ? " is a file, and no folder; name another file"
+                                      : " is not there; make that folder, or name another file"));
   }
 }
 
