@@ -1,15 +1,11 @@
 # The tests of public headers and of the pages' examples: each compiles alone. Part of the top level's CMakeLists.txt, if SIGHTLINE_TESTS.
 
-# Each header alone, by this compiler; then all of them by the other one of g++ and clang++, where there is one. Headers of which each includes
-# the next, directly or not, share a unit, the innermost first; and what includes the header that leads a group is compiled with that
-# precompiled. So no header finds anything but what it includes itself, and most is compiled once.
+# Each header alone (tests/package compiles all at once, as they are installed, by another compiler). Headers of which each includes the next,
+# directly or not, share a unit, the innermost first; and what includes the header that leads a group is compiled with that precompiled. So no header finds anything but what it includes itself, and most is compiled once.
 file(GLOB_RECURSE headers RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS kernel/*.h algorithms/*.h io/*.h harness/*.h)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})  # what includes what
 list(APPEND headers ${front_door})
 list(SORT headers)
-list(TRANSFORM headers REPLACE "(.+)" "#include <sightline/\\1>\n" OUTPUT_VARIABLE all_headers)
-list(JOIN all_headers "" all_headers)
-file(CONFIGURE OUTPUT all_headers.cpp CONTENT "// Every public header in one translation unit.\n${all_headers}")
 function(find_reached header)  # into reached_<header>: those of ours that it includes, directly or not
   get_property(is_known GLOBAL PROPERTY reached_${header} SET)
   if(is_known)
@@ -74,7 +70,7 @@ foreach(page IN LISTS pages)
   endwhile()
 endforeach()
 set(header_groups "")
-foreach(leader IN ITEMS kernel/traits/exact_traits.h kernel/scene/scene.h kernel/number.h none)
+foreach(leader IN ITEMS kernel/traits/exact_traits.h kernel/traits/point_traits.h kernel/scene/scene.h kernel/scene/polygon_soup.h kernel/number.h none)
   string(MAKE_C_IDENTIFIER "headers_after_${leader}" target)
   list(APPEND header_groups ${target})
   set(group "")
@@ -121,20 +117,3 @@ if(CMAKE_GENERATOR STREQUAL "Ninja")
 endif()
 add_test(NAME headers.and_examples_compile_alone COMMAND "${CMAKE_COMMAND}" --build "${PROJECT_BINARY_DIR}" --target ${header_groups} ${keep_going})
 set_tests_properties(headers.and_examples_compile_alone PROPERTIES RESOURCE_LOCK build COST 100)  # one build of a folder at a time; it takes longest, so it begins
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  find_program(SIGHTLINE_OTHER_COMPILER NAMES clang++ clang++-14)
-else()
-  find_program(SIGHTLINE_OTHER_COMPILER NAMES g++)
-endif()
-mark_as_advanced(SIGHTLINE_OTHER_COMPILER)
-if(SIGHTLINE_OTHER_COMPILER)
-  get_property(outside TARGET sightline::dependencies PROPERTY INTERFACE_INCLUDE_DIRECTORIES)
-  list(REMOVE_DUPLICATES outside)
-  list(REMOVE_ITEM outside ${CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES})
-  list(TRANSFORM outside PREPEND "-isystem")
-  add_test(NAME headers.all_compile_with_another_compiler COMMAND "${SIGHTLINE_OTHER_COMPILER}" -std=c++20 -fsyntax-only -ffp-contract=off -Wall -Wextra
-           "-I${include_root}" ${outside} "${PROJECT_BINARY_DIR}/all_headers.cpp")
-else()
-  add_test(NAME headers.all_compile_with_another_compiler COMMAND "${CMAKE_COMMAND}" -E echo "skipped: g++ and clang++ are not both here")
-  set_tests_properties(headers.all_compile_with_another_compiler PROPERTIES SKIP_REGULAR_EXPRESSION "skipped:")
-endif()
