@@ -93,14 +93,35 @@ commands.graph = () => {
   };
 };
 
+/// What plain doubles make of the same question, where the page knows: a switch that marks what they miss and what they add, all else in grey.
+function plainDoubles(who) {
+  const [missing, extra] = ['missing', 'extra'].map(key => new Set(data.doubles ? unpacked(data.doubles[key]) : [])), same = missing.size + extra.size === 0;
+  let shown = false;
+  return {
+    /// Null where the polygon has its own colour.
+    colourOf(k, isBeneath) {
+      const face = polygons.faces[k];
+      return !shown ? null : missing.has(face) ? palette.front : extra.has(face) ? palette.source : isBeneath ? palette.hidden : palette.face;
+    },
+    begin() {
+      if (!data.doubles) return;
+      const box = element('input', {type: 'checkbox', id: 'doubles', disabled: same, onchange: () => { shown = box.checked; paint(); }});
+      const names = set => [...set].slice(0, 30).join(', ') + (set.size > 30 ? ' …' : '');
+      section('Plain doubles', same ? element('p', {className: 'faint'}, `${who} finds the same faces.`)
+        : element('label', {className: 'row'}, box, `mark where they err: ${missing.size} visible faces missing, ${extra.size} hidden ones shown`),
+        same ? null : element('p', {className: 'faint', id: 'errors'}, (missing.size ? `missing: ${names(missing)}. ` : '') + (extra.size ? `shown: ${names(extra)}.` : '')));
+    },
+  };
+}
+
 /// Visible parts, lines, the sphere of directions.
 commands.see = () => {
   let base = 0;
   while (base < polygons.count && polygons.number(base) < data.base) ++base;
   drawing.base = base;
   const from = data.lines, lines = [], width = 1024, height = 512;
-  const doubles = data.doubles ? [new Set(unpacked(data.doubles.missing)), new Set(unpacked(data.doubles.extra))] : null;
-  let showHidden = true, showDoubles = false, sphere = null, plain = null, middle = 0;
+  const doubles = plainDoubles('The same algorithm on plain doubles');
+  let showHidden = true, sphere = null, plain = null, middle = 0;
   if (from) {
     const ends = unpacked(from.ends), edges = unpacked(from.edges), kinds = unpacked(from.kinds), hidden = unpacked(from.hidden_by);
     for (let i = 0; i < edges.length; ++i) {
@@ -158,13 +179,7 @@ commands.see = () => {
   };
   return {
     beginsAtEye: true,
-    /// What doubles miss, what they add, and all else in grey; by itself as ever.
-    colourOf(k) {
-      const own = colourOfGroup(polygons.groups[k]) || colourOfFace(polygons.faces[k]);
-      if (!showDoubles) return own;
-      const face = polygons.faces[k];
-      return doubles[0].has(face) ? palette.front : doubles[1].has(face) ? palette.source : k < base ? palette.hidden : palette.face;
-    },
+    colourOf: k => doubles.colourOf(k, k < base) || colourOfGroup(polygons.groups[k]) || colourOfFace(polygons.faces[k]),
     begin() {
       drawing.outlines = lines.length === 0 && drawing.outlines;
       if (lines.length > 0) {
@@ -173,13 +188,7 @@ commands.see = () => {
           element('p', {className: 'faint'}, 'Click an edge: what hides it lights up.'));
         drawLines();
       }
-      if (doubles) {
-        const same = doubles[0].size + doubles[1].size === 0, box = element('input', {type: 'checkbox', id: 'doubles', disabled: same, onchange: () => { showDoubles = box.checked; paint(); }});
-        const names = set => [...set].slice(0, 30).join(', ') + (set.size > 30 ? ' …' : '');
-        section('Plain doubles', same ? element('p', {className: 'faint'}, 'The same algorithm on plain doubles finds the same faces.')
-          : element('label', {className: 'row'}, box, `mark where they err: ${doubles[0].size} visible faces missing, ${doubles[1].size} hidden ones shown`),
-          same ? null : element('p', {className: 'faint', id: 'errors'}, (doubles[0].size ? `missing: ${names(doubles[0])}. ` : '') + (doubles[1].size ? `shown: ${names(doubles[1])}.` : '')));
-      }
+      doubles.begin();
       if (!gl || !eyePlace || polygons.count === 0) return;
       sphere = element('canvas', {id: 'sphere', width, height, ariaLabel: 'All directions from the eye, unrolled'});
       sphere.addEventListener('pointermove', e => {
@@ -234,6 +243,7 @@ commands.weak = () => {
     return {from: minus(p, d), to: add(p, d), colour: [...colour, 255], width: 3};
   });
   const sightline = i => { const [p, q] = ends(i); return [{from: p, to: q, colour: [...palette.front, 255], width: 3}, ...mark(p, palette.front), ...mark(q, palette.front)]; };
+  const doubles = plainDoubles('A search in plain doubles');
   let blockers = new Set(), showAll = false;
   /// Where the part of a walk that begins at a step ends.
   const endOf = step => {
@@ -283,11 +293,12 @@ commands.weak = () => {
   return {
     repaints: true,
     colourOf(k) {
-      const role = data.groups[polygons.groups[k]].role;
-      return blockers.has(k) && selected >= 0 ? palette.other : palette[role];
+      const role = data.groups[polygons.groups[k]].role, marked = k < base ? doubles.colourOf(k, false) : null;
+      return marked ? marked : blockers.has(k) && selected >= 0 ? palette.other : palette[role];
     },
     begin() {
       setLines('sources', outlinesOf([...Array(polygons.count - base).keys()].map(k => base + k), palette.source, 2), true);
+      doubles.begin();
       if (sight.pieces.length === 0) return;
       const box = element('input', {type: 'checkbox', onchange: () => { showAll = box.checked; drawAll(); }});
       section('Sightlines', element('label', {className: 'row'}, box, `all of them${sight.pieces.length > 2000 ? ', the first 2000' : ''}`),

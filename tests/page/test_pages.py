@@ -430,6 +430,22 @@ def test_where_doubles_err_is_marked(open_page, tmp_path):
     assert page.one("#panel").text.count("finds the same faces") == 1
 
 
+def test_where_a_search_in_doubles_errs_is_marked(open_page, tmp_path):
+    scene = tmp_path / "exponents.qoff"
+    run("generate", "exponents", "--seed", 2, "--out", scene, "--query", tmp_path / "exponents.json")
+    source = "--from=" + " ".join(map(",".join, json.loads((tmp_path / "exponents.json").read_text())["source"]))
+    visible, hidden = (json.loads(run("weak", scene, source, "--method", method, "--json", "-"))["result"][which]
+                       for method, which in (("lines", "visible"), ("doubles", "hidden")))
+    missing = sorted({*visible} & {*hidden})
+    page = open_page("weak", scene, source)
+    assert missing and page.text("#errors") == f"missing: {', '.join(map(str, missing))}."
+    before = page.js("return [...sightline.looks]")
+    page.one("#doubles").click()
+    assert page.js("return [...sightline.looks]") != before
+    page = open_page("weak", corpus / "general" / "cube.off", "--from-face", 0, name="other.html")
+    assert page.one("#panel").text.count("A search in plain doubles finds the same faces") == 1
+
+
 def test_the_unrolled_sphere_has_the_colour_of_what_is_met_there(open_page):
     page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
     size = page.js("const s = document.getElementById('sphere'); return [s.clientWidth, s.clientHeight]")
