@@ -71,18 +71,28 @@ double Part::solid_angle(const Exact_point& eye) const {
 
 // ---- The model
 
+const std::vector<Left_out>& Model::Inside::left_out() const {
+  return left_out_.get([&] {
+    std::vector<Left_out> all;
+    for (const Set_aside& entry : scene().set_aside()) all.push_back({entry.face, entry.why});
+    return all;
+  });
+}
+
 const std::vector<Part>& Model::Inside::parts() const {
   return parts_.get([&] {
+    const std::vector<Piece>& pieces = scene().pieces();
     std::vector<Part> parts;
-    parts.reserve(scene.pieces().size());
-    for (const Piece& piece : scene.pieces()) parts.push_back(part(piece));
+    parts.reserve(pieces.size());
+    for (const Piece& piece : pieces) parts.push_back(part(piece));
     return parts;
   });
 }
 
 Part Model::Inside::part(const Piece& piece) const {
+  const Scene& of = scene();
   Part part{piece.face, piece.number, {}};
-  for (const Piece_corner& corner : scene.corners(piece)) part.corners.push_back(scene.position(corner.point));
+  for (const Piece_corner& corner : of.corners(piece)) part.corners.push_back(of.position(corner.point));
   return part;
 }
 
@@ -91,26 +101,28 @@ const Bsp_tree<Exact_traits>& Model::Inside::tree(const Asking& asking) const {
     Bsp_options options;
     options.threads = asking.threads;
     options.progress = progress_within_budget(asking);
-    return build_bsp(traits, options);
+    return build_bsp(traits(), options);
   });
 }
 
 const Facts& Model::Inside::facts() const {
   return facts_.get([&] {
-    const Scene_counters& c = scene.counters();
-    std::vector<bool> supports(scene.planes().size());
-    for (const Piece& piece : scene.pieces()) supports[piece.support.id()] = true;
+    const Scene& of = scene();
+    const Scene_counters& c = of.counters();
+    std::vector<bool> supports(of.planes().size());
+    for (const Piece& piece : of.pieces()) supports[piece.support.id()] = true;
     const auto planes = static_cast<std::size_t>(std::count(supports.begin(), supports.end(), true));
-    Facts found{c.points_read, c.points,     c.faces_read, c.faces,      c.pieces, c.concave,
-                c.non_planar,  c.with_holes, planes,       scene.bits(), {},       closure(scene).closed,
-                std::nullopt};
-    found.arithmetic = name(scene.predicates().arithmetic());
-    if (c.faces > 0) found.box = scene.box();
+    Facts found{c.points_read, c.points, c.faces_read, c.faces, c.pieces,           c.concave,   c.non_planar,
+                c.with_holes,  planes,   of.bits(),    {},      closure(of).closed, std::nullopt};
+    found.arithmetic = name(of.predicates().arithmetic());
+    if (c.faces > 0) found.box = of.box();
     return found;
   });
 }
 
-Model::Model(Polygon_soup soup) : inside_(std::make_shared<const Inside>(std::move(soup))) {}
+Model::Model(Polygon_soup soup) : Model(std::make_shared<const Inside>(std::move(soup))) { inside_->traits(); }
+
+Model::Model(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
 
 Model Model::read(const std::filesystem::path& file) { return Model(read_scene(file)); }
 
@@ -144,17 +156,17 @@ Model Model::of_polygons(std::span<const std::array<double, 3>> points, std::spa
 }
 
 std::size_t Model::face_count() const { return inside_->soup.face_count(); }
-const std::vector<Left_out>& Model::left_out() const { return inside_->left_out; }
+const std::vector<Left_out>& Model::left_out() const { return inside_->left_out(); }
 const std::vector<Part>& Model::parts() const { return inside_->parts(); }
 const Polygon_soup& Model::soup() const { return inside_->soup; }
-const Scene& Model::scene() const { return inside_->scene; }
+const Scene& Model::scene() const { return inside_->scene(); }
 const std::shared_ptr<const Model::Inside>& Model::inside() const { return inside_; }
 
 Facts Model::facts() const { return inside_->facts(); }
 
 double Model::area(Face_id face) const {
   double sum = 0;
-  for (const Piece& piece : inside_->scene.pieces())
+  for (const Piece& piece : inside_->scene().pieces())
     if (piece.face == face) sum += inside_->part(piece).area();
   return sum;
 }

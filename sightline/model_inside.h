@@ -22,7 +22,7 @@ class Once {
  public:
   template <class Make>
   const T& get(const Make& make) const {
-    std::call_once(flag_, [&] { value_ = std::make_unique<T>(make()); });
+    std::call_once(flag_, [&] { value_.reset(new T(make())); });  // where it is made it stays
     return *value_;
   }
 
@@ -33,30 +33,36 @@ class Once {
 
 /// The soup as it was read, the scene of it, and what questions share. Any thread may ask for any of it.
 struct Model::Inside {
-  explicit Inside(Polygon_soup from) : soup(std::move(from)), scene(soup), traits(scene) {
-    for (const Set_aside& entry : scene.set_aside()) left_out.push_back({entry.face, entry.why});
-  }
+  explicit Inside(Polygon_soup from) : soup(std::move(from)) {}
 
+  /// Errors: as Scene(), each time that it is asked for.
+  const Scene& scene() const {
+    return scene_.get([&] { return Scene(soup); });
+  }
+  const Exact_traits& traits() const {
+    return traits_.get([&] { return Exact_traits(scene()); });
+  }
+  const std::vector<Left_out>& left_out() const;
   const std::vector<Part>& parts() const;
   Part part(const Piece& piece) const;
   const Bsp_tree<Exact_traits>& tree(const Asking& asking) const;
   const Piece_boxes& boxes() const {
-    return boxes_.get([&] { return Piece_boxes(scene); });
+    return boxes_.get([&] { return Piece_boxes(scene()); });
   }
   const Occluders& occluders() const {
-    return occluders_.get([&] { return Occluders(scene); });
+    return occluders_.get([&] { return Occluders(scene()); });
   }
   const Ray_tracer& tracer() const {
-    return tracer_.get([&] { return Ray_tracer(scene); });
+    return tracer_.get([&] { return Ray_tracer(scene()); });
   }
   const Facts& facts() const;
 
   const Polygon_soup soup;
-  const Scene scene;
-  const Exact_traits traits;
-  std::vector<Left_out> left_out;
 
  private:
+  Once<Scene> scene_;
+  Once<Exact_traits> traits_;
+  Once<std::vector<Left_out>> left_out_;
   Once<std::vector<Part>> parts_;
   Once<Bsp_tree<Exact_traits>> tree_;
   Once<Piece_boxes> boxes_;

@@ -26,13 +26,14 @@ namespace sightline {
 
 Visibility_order order(const Model& model, const Exact_point& eye, const Asking& asking) {
   const std::shared_ptr<const Model::Inside> inside = model.inside();
-  const Exact_traits& traits = inside->traits;
+  const Exact_traits& traits = inside->traits();
+  const Scene& scene = inside->scene();
   Visibility_order answer;
   answer.eye = eye;
   Order_cuts cuts;
-  traverse_with_cuts(traits, inside->tree(asking), traits.eye(eye), &inside->scene, cuts,
+  traverse_with_cuts(traits, inside->tree(asking), traits.eye(eye), &scene, cuts,
                      [&](const Fragment<Exact_traits>& fragment, Sign) {
-                       const Piece& piece = inside->scene.pieces()[fragment.polygon.piece];
+                       const Piece& piece = scene.pieces()[fragment.polygon.piece];
                        Part& part = answer.parts.emplace_back(Part{piece.face, piece.number, {}});
                        for (const Corner<Exact_traits>& corner : fragment.polygon)
                          part.corners.push_back(traits.position(*corner.vertex));
@@ -42,7 +43,7 @@ Visibility_order order(const Model& model, const Exact_point& eye, const Asking&
     certificate.cuts = cuts;
     certificate.eye = eye;
     for (const Part& part : parts) certificate.fragments.push_back({part.face, part.piece, part.corners});
-    add_pieces(certificate, inside->scene);
+    add_pieces(certificate, inside->scene());
     return certificate_text(certificate);
   };
   return answer;
@@ -52,7 +53,7 @@ Visibility_order order(const Model& model, const Exact_point& eye, const Asking&
 
 Priority priority_graph(const Model& model, const Asking& asking) {
   const std::shared_ptr<const Model::Inside> inside = model.inside();
-  const auto faces = std::make_shared<const Priority_relation<Exact_traits>>(inside->traits);
+  const auto faces = std::make_shared<const Priority_relation<Exact_traits>>(inside->traits());
   Implicit_priority_graph<Priority_relation<Exact_traits>> graph(*faces);
   Component_trees trees;
   const Priority_components found = graph.find_components(&trees, progress_within_budget(asking));
@@ -60,7 +61,7 @@ Priority priority_graph(const Model& model, const Asking& asking) {
   for (std::size_t c = 0; c < found.size(); ++c) answer.components.emplace_back(found[c].begin(), found[c].end());
   answer.cyclic = found.cyclic();
   answer.certificate_ = [inside, faces, found, trees = std::move(trees)] {
-    return certificate_text(graph_certificate(inside->scene, *faces, found, trees));
+    return certificate_text(graph_certificate(inside->scene(), *faces, found, trees));
   };
   return answer;
 }
@@ -70,13 +71,14 @@ Priority priority_graph(const Model& model, const Asking& asking) {
 struct Tracker::Inside {
   explicit Inside(std::shared_ptr<const Model::Inside> of)
       : model(std::move(of)),
-        graph(model->scene),
-        tracker(model->traits, graph),
+        graph(model->scene()),
+        tracker(model->traits(), graph),
         nodes_on(model->soup.face_count()),
         faces_of(graph.size()) {
-    for (std::uint32_t i = 0; i < model->scene.pieces().size(); ++i) {
+    const std::vector<Piece>& pieces = model->scene().pieces();
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
       std::vector<Face_id>& faces = faces_of[graph.node(i)];
-      const Face_id face = model->scene.pieces()[i].face;
+      const Face_id face = pieces[i].face;
       if (faces.empty() || faces.back() != face) faces.push_back(face);
     }
   }
@@ -130,8 +132,8 @@ namespace {
 Seen seen_from(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
                const Asking& asking) {
   const std::shared_ptr<const Model::Inside> inside = model.inside();
-  const auto view = field.empty() ? std::make_shared<const Exact_view>(inside->scene, eye)
-                                  : std::make_shared<const Exact_view>(inside->scene, eye, field_of(field));
+  const auto view = field.empty() ? std::make_shared<const Exact_view>(inside->scene(), eye)
+                                  : std::make_shared<const Exact_view>(inside->scene(), eye, field_of(field));
   Visible_options options;
   options.threads = asking.threads;
   options.progress = progress_within_budget(asking);
@@ -143,7 +145,7 @@ Seen seen_from(const Model& model, const Exact_point& eye, const std::vector<Exa
   answer.from_behind = surface->from_behind;
   for (const auto& part : surface->parts) {
     if (part.piece == surface->nothing) continue;
-    const Piece& piece = inside->scene.pieces()[part.piece];
+    const Piece& piece = inside->scene().pieces()[part.piece];
     Seen::Visible_part& seen = answer.parts.emplace_back();
     seen.face = piece.face;
     seen.piece = piece.number;
@@ -161,7 +163,7 @@ Seen seen_from(const Model& model, const Exact_point& eye, const std::vector<Exa
       Seen::Line& line = lines.emplace_back(Seen::Line{drawn.ends, drawn.kind, std::move(drawn.faces), {}});
       for (const Line_part& part : drawn.parts) {
         Seen::Line::Stretch& stretch = line.stretches.emplace_back(Seen::Line::Stretch{part.from, part.to, {}});
-        if (part.hidden_by != Line_part::nothing) stretch.hidden_by = inside->scene.pieces()[part.hidden_by].face;
+        if (part.hidden_by != Line_part::nothing) stretch.hidden_by = inside->scene().pieces()[part.hidden_by].face;
       }
     }
     return lines;

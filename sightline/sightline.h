@@ -94,7 +94,8 @@ class Model {
   Facts facts() const;         ///< Cost: O(edges), once
 
   struct Inside;
-  const std::shared_ptr<const Inside>& inside() const;  ///< for what is behind the door
+  const std::shared_ptr<const Inside>& inside() const;   ///< for what is behind the door
+  explicit Model(std::shared_ptr<const Inside> inside);  ///< the same; its scene is made when it is first asked for
 
  private:
   std::shared_ptr<const Inside> inside_;
@@ -251,9 +252,12 @@ std::vector<Nearest_face> nearest(const Model& model, std::span<const Double_ray
 
 /// A solid made of others, and where its faces come from. Its certificate takes the time of the answer again.
 struct Combined : Answer {
-  Model model;                                           ///< closed, fronts outwards; faces may have holes
+  /// Closed, fronts outwards; faces may have holes. It is made ready when it is first asked for more than its soup,
+  /// which no budget bounds: where new points have many denominators that takes far longer than the operation.
+  Model model;
   std::vector<std::pair<std::uint32_t, Face_id>> faces;  ///< of each face: which solid it was of, and which face there
   Rational volume;
+  std::array<double, 2> area() const;  ///< the least and the most; of the soup. Cost: O(n)
 };
 /// Set operations on solids: "union", "intersection", "difference" (the first less all others) or
 /// "symmetric-difference" (in an odd number of them). A solid is where its faces wind round a point a "positive",

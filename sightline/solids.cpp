@@ -1,4 +1,4 @@
-#include <sightline/sightline.h>
+#include <sightline/model_inside.h>
 
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
@@ -8,6 +8,7 @@
 #include <sightline/kernel/threads.h>
 
 #include <array>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -65,8 +66,11 @@ Combined combine(std::string_view operation, const std::vector<Model>& solids, s
     });
     return std::move(out).str();
   };
-  return {{certificate}, Model(std::move(result.soup)), std::move(sources), volume};
+  return {
+      {certificate}, Model(std::make_shared<const Model::Inside>(std::move(result.soup))), std::move(sources), volume};
 }
+
+std::array<double, 2> Combined::area() const { return sightline::area(model.soup()); }
 
 Checked verify(const std::vector<Model>& solids, const Model& result, const std::string& certificate,
                const Asking& asking) {

@@ -35,7 +35,7 @@ Weak_visibility weak_answer(const Model& model, const std::vector<std::vector<Ex
   answer.hidden = found->hidden;
   answer.undecided = found->undecided;
   answer.certificate_ = [inside = model.inside(), sources, found, two_sided = asking.two_sided] {
-    return certificate_text(weak_certificate(inside->scene, sources, two_sided, *found));
+    return certificate_text(weak_certificate(inside->scene(), sources, two_sided, *found));
   };
   return answer;
 }
@@ -155,7 +155,7 @@ Seen_along see_along(const Model& model, const Exact_point& from, const Exact_po
   options.with_proofs = true;
   answer.certificate_ = [inside, from, to, options] {
     const Visible_along proved = visible_along(inside->occluders(), from, to, options);
-    return certificate_text(along_certificate(inside->scene, proved, from, to, options.two_sided));
+    return certificate_text(along_certificate(inside->scene(), proved, from, to, options.two_sided));
   };
   return answer;
 }

@@ -115,6 +115,27 @@ Ray_tracer::Ray Ray_tracer::prepared(const Double_ray& doubles) const {
   return ray;
 }
 
+std::optional<Rational> Ray_tracer::start_from_afar(const Exact_ray& ray) const {
+  const Rational per_t = largest(ray.direction) * per_unit_;
+  const Exact_point centre = scene_->position({0, 0, 0, 1});
+  Exact_point from, along;  // scaled
+  Rational product = 0, square = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    from[k] = (ray.origin[k] - centre[k]) * per_unit_;
+    along[k] = ray.direction[k] * per_unit_ / per_t;
+    product += from[k] * along[k];
+    square += along[k] * along[k];
+  }
+  const Rational foot = -product / square;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (abs(Rational(from[k] + foot * along[k])) > 4) return std::nullopt;
+  Integer start;  // whole, so that it does not grow
+  mpz_fdiv_q(start.get_mpz_t(), foot.get_num_mpz_t(), foot.get_den_mpz_t());
+  start -= 4;
+  if (start <= 0) return std::nullopt;
+  return start / per_t;
+}
+
 Ray_tracer::Ray Ray_tracer::prepared(const Exact_ray& exact) const {
   check_direction(exact);
   Ray ray;
@@ -128,7 +149,17 @@ Ray_tracer::Ray Ray_tracer::prepared(const Exact_ray& exact) const {
     const Located_point at = scene_->locate(origin);
     ray.at.origin = {at.ax * scale_, at.ay * scale_, at.az * scale_};
     ray.at.error = at.error * scale_ + tiny;
-    if (!(ray.at.error < 0x1p500)) break;
+    if (!(ray.at.error < 0x1p500)) {  // doubles do not hold it
+      if (ray.shift) break;
+      const std::optional<Rational> start = start_from_afar(exact);
+      if (!start) {
+        ray.away = true;
+        return ray;
+      }
+      ray.shift = start;
+      origin = point_at(exact, *start);
+      continue;
+    }
     // From afar it begins anew a few units before the point that is nearest to the scene's middle.
     const double foot = -dot_of(ray.at.origin, ray.at.direction) / dot_of(ray.at.direction, ray.at.direction);
     if (turn == 0 ? largest(ray.at.origin) <= far_away : foot > 3 && largest(ray.at.origin) <= 2 * far_away) {
@@ -142,9 +173,8 @@ Ray_tracer::Ray Ray_tracer::prepared(const Exact_ray& exact) const {
       return ray;
     }
     const double by = (foot - 4) / per_t;
-    if (!std::isfinite(by)) break;
     if (!ray.shift) ray.shift = 0;
-    *ray.shift += sightline::exact(by);
+    *ray.shift += std::isnormal(by) ? sightline::exact(by) : Rational(sightline::exact(foot - 4) / (size * per_unit_));
     if (*ray.shift <= 0) break;
     origin = point_at(exact, *ray.shift);
   }
@@ -472,7 +502,7 @@ std::optional<Ray_tracer::Nearest> Ray_tracer::Search::nearest() const {
   if (first == nullptr) return Nearest{};
   if (!whole_faces_.empty()) return std::nullopt;
   const double per_t = ray_.length * tracer_.about_per_unit_, shift = ray_.shift ? nearest_double(*ray_.shift) : 0;
-  if (!(per_t > 0x1p-900 && per_t < 0x1p900)) return std::nullopt;
+  if (!(per_t > 0x1p-900 && per_t < 0x1p900 && std::isfinite(shift))) return std::nullopt;
   const auto at = [&](double s, double wider) {
     const double t = (s + ray_.offset) / per_t;
     return t + shift + wider * (0x1p-49 * (std::fabs(t) + std::fabs(shift)) + 0x1p-1060);
@@ -504,6 +534,7 @@ std::vector<Face_hit> Ray_tracer::Search::hits() {
 
 Ray_tracer::Nearest Ray_tracer::Search::between(const Face_hit& hit) const {
   const double t = nearest_double(hit.t), error = 0x1p-52 * std::fabs(t) + 0x1p-1060;
+  if (std::isinf(t)) return {hit.face, hit.side, false, std::numeric_limits<double>::max(), t};
   return {hit.face, hit.side, false, t - error, t + error};
 }
 

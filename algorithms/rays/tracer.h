@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sightline {
@@ -72,6 +73,8 @@ class Ray_tracer {
     return flat.size <= Flat::most ? flat.corners.data() : &more_[static_cast<std::size_t>(flat.corners[0][0])];
   }
 
+  /// Where a ray from farther than doubles go begins anew, before the scene; nothing where it passes the scene by.
+  std::optional<Rational> start_from_afar(const Exact_ray& ray) const;
   Ray prepared(const Exact_ray& ray) const;
   Ray prepared(const Double_ray& ray) const;
 

@@ -162,7 +162,7 @@ py::tuple partition_of(const Model& model, const py::object& source, Face_id fac
                        const Question& question) {
   const std::vector<std::vector<Exact_point>> sources = sources_of(model, source);
   std::vector<std::uint32_t> pieces;
-  const Scene& scene = model.scene();
+  const Scene& scene = *answer_to(plain_question(), [model](const Asking&) { return &model.scene(); });
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i)
     if (scene.pieces()[i].face == face) pieces.push_back(i);
   if (pieces.empty())

@@ -154,9 +154,10 @@ Parts parts_of(const Model& model) {
   return {count, [model](std::size_t i) -> const Part& { return model.parts()[i]; }, {}};
 }
 
-std::vector<std::pair<Face_id, std::string>> left_out_of(const Model& model) {
-  std::vector<std::pair<Face_id, std::string>> all;
-  for (const Left_out& entry : model.left_out()) all.emplace_back(entry.face, entry.why);
+py::list left_out_of(const Model& model) {
+  py::list all;
+  const auto left_out = answer_to(plain_question(), [model](const Asking&) { return model.left_out(); });
+  for (const Left_out& entry : left_out) all.append(py::make_tuple(entry.face, entry.why));
   return all;
 }
 
@@ -303,12 +304,7 @@ void add_scene(py::module_& module) {
       .def_property_readonly("file", [](const Model& model) { return model.soup().file; })
       .def_property_readonly("face_count", &Model::face_count)
       .def_property_readonly("point_count", [](const Model& model) { return model.soup().point_count(); })
-      .def("left_out",
-           [](const Model& model) {
-             py::list all;
-             for (const auto& [face, why] : left_out_of(model)) all.append(py::make_tuple(face, why));
-             return all;
-           })
+      .def("left_out", &left_out_of)
       .def("parts", &parts_of)
       .def("facts", &facts_of)
       .def(

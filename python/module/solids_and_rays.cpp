@@ -2,6 +2,8 @@
 
 #include "bindings.h"
 
+#include <sightline/algorithms/solids/measure.h>
+
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -134,6 +136,14 @@ void add_solids_and_rays(py::module_& module) {
              py::arg("question"));
   module.def("traced", &traced, py::arg("model"), py::arg("origins"), py::arg("directions"), py::arg("all"),
              py::arg("closed"), py::arg("question"));
+  module.def(
+      "area_of",
+      [](const Model& model) {
+        const auto bounds =
+            answer_to(plain_question(), [model](const Asking&) { return sightline::area(model.soup()); });
+        return py::make_tuple(bounds[0], bounds[1]);
+      },
+      py::arg("model"));
   module.def("combine", &combined, py::arg("operation"), py::arg("solids"), py::arg("inside"), py::arg("question"));
 }
 

@@ -33,10 +33,17 @@ class Solid:
         volume: Fraction,
         certifier: "_sightline.Certifier",
     ) -> None:
-        self.scene = Scene._of(model)  #: its surface, closed, fronts outwards; faces may have holes
+        #: its surface, closed, fronts outwards; faces may have holes. It is made ready when it is first asked for more
+        #: than points and faces, which no budget bounds: where new points have many denominators that takes long
+        self.scene = Scene._of(model)
         self.sources = sources  #: of each face, (faces, 2): which solid it was of, and which face there
         self.volume = volume
         self._solids, self._certifier = solids, certifier
+
+    @property
+    def area(self) -> Tuple[float, float]:
+        """The least and the most that its surface may have, close to each other."""
+        return _sightline.area_of(self.scene._model)
 
     def certificate(self) -> SolidCertificate:
         """What the answer can show for itself. It takes the time of the answer again."""
@@ -64,6 +71,8 @@ def boolean(
     >>> other = Scene(cube.points() + [0.5, 0.5, 0.5], cube.faces())
     >>> boolean("intersection", cube, other).volume
     Fraction(1, 8)
+    >>> "%.6f %.6f" % boolean("union", cube, other).area
+    '10.500000 10.500000'
     >>> boolean("union", cube, other).certificate().verify().accepted
     True
     """

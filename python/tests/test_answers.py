@@ -375,6 +375,18 @@ def test_budget_and_progress_of_what_is_made_of_solids(name):
     assert one.volume == four.volume and one.sources.tolist() == four.sources.tolist()
 
 
+def test_results_of_boolean_are_not_made_ready_before_they_are_asked():
+    start = time.process_time()
+    union = sightline.boolean("union", tangle(40), threads=1, budget=30)  # one grid for its points takes half a minute
+    low, high = union.area
+    assert union.volume > 0 and 0 < low <= high < low * 1.000001
+    assert len(union.scene.points(exact=True)) == union.scene.point_count
+    assert len(union.scene.faces()) == union.scene.face_count == len(union.sources)
+    assert time.process_time() - start < 10
+    small = sightline.boolean("union", tangle(3), threads=1)
+    assert small.scene.areas.sum() == pytest.approx(small.area[0], rel=1e-12) == pytest.approx(small.area[1], rel=1e-12)
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 @pytest.mark.parametrize("name", ["weakly_visible", "see_along", "space", "boolean"])
 def test_interrupts_end_a_question_at_once(name):

@@ -13,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -315,6 +316,20 @@ TEST(Combine, has_the_volumes_of_two_cubes_that_share_one) {
   EXPECT_THROW(combine("minus", {one, other}), std::invalid_argument);
   EXPECT_THROW(combine("union", {one, other}, "even"), std::invalid_argument);
   EXPECT_THROW(combine("union", {one, lamp_and_lid()}), std::invalid_argument);
+}
+
+TEST(Combine, results_are_made_ready_once_whatever_thread_asks_first) {
+  const Combined found = combine("union", {cube(), cube()});
+  const Combined copy = found;
+  const auto [low, high] = found.area();
+  EXPECT_TRUE(low <= 24 && 24 <= high && high - low < 1e-9) << low << ' ' << high;
+  std::vector<const Scene*> scenes(8);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    threads.emplace_back([&, i] { scenes[i] = &(i % 2 == 0 ? found : copy).model.scene(); });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(scenes, std::vector<const Scene*>(scenes.size(), scenes[0]));
+  EXPECT_EQ(found.model.facts().faces, 6u);
 }
 
 TEST(See, in_a_field_sees_what_is_within_it) {
