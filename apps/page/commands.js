@@ -490,7 +490,7 @@ commands.judge = commands.report = () => {
   return {
     begin() {
       if (source >= 0) setLines('source', outlinesOf([source], palette.source, 2), true);
-      if (eyePlace) setLines('eye', [...mark(eyePlace, [255, 255, 255], 0.045).map(one => ({...one, width: 7})), ...mark(eyePlace, ink, 0.04)], true, true);
+      if (eyePlace) setLines('eye', [...mark(eyePlace, [255, 255, 255], 0.045).map(one => ({...one, width: 7})), ...mark(eyePlace, ink, 0.04)], true);
       if (!line) return;
       const [from, to, at] = [line.from, line.to, line.at || line.to];
       setLines('refutation', [{from, to: at, colour: [...palette.front, 255], width: 3}, {from: at, to, colour: [...palette.front, 255], width: 2, dash: 9}, ...mark(at, palette.front, 0.02), ...mark(to, palette.front, 0.02)], true);

@@ -126,12 +126,12 @@ function prepare() {
   gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
 }
 
-/// Lines by a name, in place of those it had: {from, to, colour: [r, g, b, a] of 255, width, dash}. `through`: in front of all; `fromOutside`: not from the eye.
-function setLines(name, list, through = false, fromOutside = false) {
+/// Lines by a name, in place of those it had: {from, to, colour: [r, g, b, a] of 255, width, dash}. `through`: in front of all.
+function setLines(name, list, through = false) {
   const before = lineLayers.get(name);
   if (before && before.vertices && gl) gl.deleteVertexArray(before.vertices), before.buffers.forEach(buffer => gl.deleteBuffer(buffer));
   if (list.length === 0) lineLayers.delete(name);
-  else lineLayers.set(name, {list, through, fromOutside, vertices: null});
+  else lineLayers.set(name, {list, through, vertices: null});
   redraw();
 }
 /// Each line as two triangles of its own: a software renderer takes as long for an instance as for a draw.
@@ -205,7 +205,7 @@ function draw() {
   gl.uniform1f(faces.lines.near, frame.near);
   for (const through of [false, true])
     for (const layer of lineLayers.values()) {
-      if (layer.through !== through || (layer.fromOutside && camera.atEye)) continue;
+      if (layer.through !== through) continue;
       if (!layer.vertices) prepareLines(layer);
       through ? gl.disable(gl.DEPTH_TEST) : gl.enable(gl.DEPTH_TEST);
       gl.uniform1f(faces.lines.bias, through ? 0 : 1);

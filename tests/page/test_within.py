@@ -110,6 +110,37 @@ def test_the_pair_that_an_order_has_wrong_is_shown(browser, tmp_path):
         1: "nearer, or missing", 0: "drawn over it", 2: "right"}
 
 
+def test_a_line_is_dashed_beyond_what_it_meets(browser, tmp_path):
+    scene, query, path = tmp_path / "two.off", tmp_path / "query.json", tmp_path / "page.html"
+    scene.write_text("OFF\n8 2 0\n" + "".join(f"{x} {y} {z}\n" for z in (1, 0) for x, y in ((-1, -1), (-1, 1), (1, 1), (1, -1))) + "4 0 1 2 3\n4 4 5 6 7\n")
+    query.write_text('{"query": "see", "eye": [0, 0, -0.5], "two_sided": false}')
+    mine = tmp_path / "mine.sh"
+    mine.write_text('printf "0\\n1\\n" > $3\n')
+    run("judge", "--program", f"sh {mine} {{scene}} {{query}} {{answer}}", "--query", "see", "--contract", "exact", "--scenes", scene, "--ask", query, "--html", path, code=1)
+    views, viewer = (json.loads(re.search(rf'id="{name}"[^>]*>(.*?)</script>', path.read_text(), re.S)[1]) for name in ("views", "viewer"))
+    alone = tmp_path / "alone.html"
+    alone.write_text(viewer.replace("<!--data-->", json.dumps(views[0])))
+    page = Page(browser, alone)
+    lines = page.js("return sightline.linesOf('refutation').slice(0, 2).map(line => [line.from, line.to, line.dash > 0])")
+    place = lambda z: pytest.approx([0, 0, (z - page.data["frame"]["middle"][2]) / page.data["frame"]["size"]])
+    assert lines == [[place(-0.5), place(0), False], [place(0), place(1), True]]
+    assert page.js("return sightline.camera.pitch") < -0.1, "faces look down: one sees them from below"
+
+    # From the eye the mark that shows where it is is not in the way: it is white and black, the faces are not.
+    white = lambda: page.js("""
+        sightline.draw();
+        const view = document.getElementById('view'), gl = view.getContext('webgl2'), all = new Uint8Array(4 * view.width * view.height);
+        gl.readPixels(0, 0, view.width, view.height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+        let count = 0;
+        for (let i = 0; i < all.length; i += 4) count += all[i] === 255 && all[i + 1] === 255 && all[i + 2] === 255;
+        return count;
+        """)
+    assert white() > 20
+    page.press("e")
+    assert page.js("return sightline.camera.atEye") and white() == 0
+    page.close()
+
+
 @pytest.mark.parametrize("of", ["judgement", "whole_report"])
 def test_no_page_runs_out_of_its_window(browser, request, of):
     path = request.getfixturevalue(of)
