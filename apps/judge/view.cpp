@@ -73,6 +73,7 @@ Json view_of(const std::string& command, const std::string& question, const Poly
   const Scene scene(soup);
   Page page(command, scene, most_triangles);
   page.add_fact("asked", question);
+  if (question == "boolean") page.add_fact("operation", judge::to_json(query)["operation"].get<std::string>());
   page.add_fact("faces", fmt::format("{}", soup.face_count()));
   if (grade.wrong_pairs.size() > 1)
     page.add_fact("in the wrong order", fmt::format("{} pairs, one of them shown", grade.wrong_pairs.size()));

@@ -487,13 +487,14 @@ commands.compare = () => {
 commands.judge = commands.report = () => {
   const line = data.refutation, source = polygons.faces.indexOf(noFace);  // which comes after all faces
   drawing.base = Math.max(0, source);
+  const withHalo = list => [...list.map(one => ({...one, colour: [255, 255, 255, 255], width: one.width + 3})), ...list];  // on faces and paper of any colour
   return {
     begin() {
       if (source >= 0) setLines('source', outlinesOf([source], palette.source, 2), true);
-      if (eyePlace) setLines('eye', [...mark(eyePlace, [255, 255, 255], 0.045).map(one => ({...one, width: 7})), ...mark(eyePlace, ink, 0.04)], true);
+      if (eyePlace) setLines('eye', withHalo(mark(eyePlace, ink, 0.04)), true);
       if (!line) return;
       const [from, to, at] = [line.from, line.to, line.at || line.to];
-      setLines('refutation', [{from, to: at, colour: [...palette.front, 255], width: 3}, {from: at, to, colour: [...palette.front, 255], width: 2, dash: 9}, ...mark(at, palette.front, 0.02), ...mark(to, palette.front, 0.02)], true);
+      setLines('refutation', withHalo([{from, to: at, colour: [...ink, 255], width: 3}, {from: at, to, colour: [...ink, 255], width: 2, dash: 9}, ...mark(at, ink, 0.02), ...mark(to, ink, 0.02)]), true);
       section('Why it is wrong', element('p', {id: 'why'}, line.words));
     },
   };
