@@ -237,11 +237,6 @@ commands.weak = () => {
     proofsOfFace.get(face).push(i);
   });
   const ends = i => [[...sight.ends.subarray(6 * i, 6 * i + 3)], [...sight.ends.subarray(6 * i + 3, 6 * i + 6)]];
-  const mark = (p, colour) => [0, 1, 2].map(k => {
-    const d = [0, 0, 0];
-    d[k] = 0.012 * bounds.radius;
-    return {from: minus(p, d), to: add(p, d), colour: [...colour, 255], width: 3};
-  });
   const sightline = i => { const [p, q] = ends(i); return [{from: p, to: q, colour: [...palette.front, 255], width: 3}, ...mark(p, palette.front), ...mark(q, palette.front)]; };
   const doubles = plainDoubles('A search in plain doubles');
   let blockers = new Set(), showAll = false;
@@ -323,6 +318,15 @@ commands.weak = () => {
   };
 };
 
+/// A cross about a place, of a size that is a share of the scene's.
+function mark(p, colour, size = 0.012) {
+  return [0, 1, 2].map(k => {
+    const d = [0, 0, 0];
+    d[k] = size * bounds.radius;
+    return {from: minus(p, d), to: add(p, d), colour: [...colour, 255], width: 3};
+  });
+}
+
 /// The path, played.
 commands.cutset = () => {
   const from = data.frames, numbers = unpacked(from.numbers), cuts = unpacked(from.cut_edges), tests = unpacked(from.tests), far = unpacked(from.at_infinity), on = unpacked(from.on_view);
@@ -330,10 +334,9 @@ commands.cutset = () => {
   const isOn = (frame, k) => bit(on, frame * polygons.of + polygons.number(k)) === 1;
   let frame = 0, follows = false;
   const eyeLines = () => {
-    const p = from.places[frame], r = 0.03 * bounds.radius;
+    const p = from.places[frame];
     if (!p || follows) return [];
-    return [0, 1, 2].map(k => { const d = [0, 0, 0]; d[k] = r; return {from: minus(p, d), to: add(p, d), colour: [...palette.front, 255], width: 3}; })
-      .concat([{from: p, to: bounds.middle, colour: [...palette.front, 120], width: 1, dash: 8}]);
+    return mark(p, palette.front, 0.03).concat([{from: p, to: bounds.middle, colour: [...palette.front, 120], width: 1, dash: 8}]);
   };
   const cutLines = () => {
     const list = [];
@@ -487,6 +490,23 @@ commands.compare = () => {
     begin() {
       section('Seconds and errors', where, element('div', {id: 'methods'}, list));
       if (methods.length > 0) choose(methods[0]);
+    },
+  };
+};
+
+/// What an answer has wrong, and the line that refutes it: dashed beyond what it meets.
+commands.judge = commands.report = () => {
+  const line = data.refutation, source = polygons.faces.indexOf(noFace);  // which comes after all faces
+  drawing.base = Math.max(0, source);
+  const withHalo = list => [...list.map(one => ({...one, colour: [255, 255, 255, 255], width: one.width + 3})), ...list];  // on faces and paper of any colour
+  return {
+    begin() {
+      if (source >= 0) setLines('source', outlinesOf([source], palette.source, 2), true);
+      if (eyePlace) setLines('eye', withHalo(mark(eyePlace, ink, 0.04)), true);
+      if (!line) return;
+      const [from, to, at] = [line.from, line.to, line.at || line.to];
+      setLines('refutation', withHalo([{from, to: at, colour: [...ink, 255], width: 3}, {from: at, to, colour: [...ink, 255], width: 2, dash: 9}, ...mark(at, ink, 0.02), ...mark(to, ink, 0.02)]), true);
+      section('Why it is wrong', element('p', {id: 'why'}, line.words));
     },
   };
 };

@@ -6,7 +6,6 @@ import math
 import re
 from fractions import Fraction
 from pathlib import Path
-from sys import executable
 
 import pytest
 from conftest import block_of, corpus, packed, program, run, unpacked
@@ -646,9 +645,9 @@ def test_a_comparison_says_the_errors_of_each(open_page, words):
 
 
 def test_a_judgement_fits_1400_pixels(browser, tmp_path):
-    mine, page = tmp_path / ("a_long_name_" * 15 + ".py"), tmp_path / "judgement.html"
-    mine.write_text("import sys\nopen(sys.argv[3], 'w').write('{\"visible\": []}')\n")
-    run("judge", "--program", f"{executable} {mine} {{scene}} {{query}} {{answer}}", "--query", "see", "--contract", "exact",
+    mine, page = tmp_path / ("a_long_name_" * 15 + ".sh"), tmp_path / "judgement.html"
+    mine.write_text("echo '{\"visible\": []}' > $3\n")
+    run("judge", "--program", f"sh {mine} {{scene}} {{query}} {{answer}}", "--query", "see", "--contract", "exact",
         "--families", "hinged,triangles_between_squares", "--cases", 1, "--html", page, code=1)
     size = browser.get_window_size()
     browser.set_window_size(1400, 900)
