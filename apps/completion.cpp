@@ -39,29 +39,32 @@ std::string bash_script(const std::vector<Command_words>& commands) {
   for (const Command_words& command : commands) {
     names += command.name + ' ';
     std::vector<std::string> options, files, others, choices;
+    bool takes_files = false;
     for (const Option_words& option : command.options) {
       const std::string pattern = '"' + command.name + ' ' + option.name + '"';
       if (!is_dashed(option)) {
         choices.insert(choices.end(), option.choices.begin(), option.choices.end());
+        takes_files |= option.choices.empty();
         continue;
       }
       options.push_back(option.name);
       if (option.value.empty()) continue;
       if (!option.choices.empty())
-        values += fmt::format("    {}) COMPREPLY=($(compgen -W '{}' -- \"$current\")); return ;;\n", pattern,
+        values += fmt::format("    {}) mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$current\"); return ;;\n", pattern,
                               joined(option.choices, " "));
       else (option.is_file ? files : others).push_back(pattern);
     }
     if (!files.empty())
-      values += fmt::format("    {}) COMPREPLY=($(compgen -f -- \"$current\")); return ;;\n", joined(files, " | "));
+      values += fmt::format("    {}) mapfile -t COMPREPLY < <(compgen -f -- \"$current\"); return ;;\n",
+                            joined(files, " | "));
     if (!others.empty()) values += fmt::format("    {}) return ;;\n", joined(others, " | "));
-    words +=
-        fmt::format("    {}) options='{}' choices='{}' ;;\n", command.name, joined(options, " "), joined(choices, " "));
+    words += fmt::format("    {}) options='{}' choices='{}' files={} ;;\n", command.name, joined(options, " "),
+                         joined(choices, " "), takes_files ? "-f" : "");
   }
   return "# bash completion for sightline: source it, or put it where bash-completion looks.\n"
          "_sightline() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command= options= choices= "
-         "i\n"
+         "files= i\n"
          "  COMPREPLY=()\n"
          "  if [[ $current == '=' ]]; then current=\n"
          "  elif [[ $previous == '=' ]]; then previous=${COMP_WORDS[COMP_CWORD - 2]}; fi\n"
@@ -75,8 +78,8 @@ std::string bash_script(const std::vector<Command_words>& commands) {
          "    '') COMPREPLY=($(compgen -W '" +
          names + "--help --version' -- \"$current\")); return ;;\n" + words +
          "  esac\n"
-         "  if [[ $current == -* ]]; then COMPREPLY=($(compgen -W \"$options\" -- \"$current\"))\n"
-         "  else COMPREPLY=($(compgen -W \"$choices\" -- \"$current\") $(compgen -f -- \"$current\")); fi\n"
+         "  if [[ $current == -* ]]; then mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$current\")\n"
+         "  else mapfile -t COMPREPLY < <(compgen $files -W \"$choices\" -- \"$current\"); fi\n"
          "}\n"
          "complete -o filenames -F _sightline sightline\n";
 }

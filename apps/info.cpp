@@ -115,7 +115,8 @@ static Exit run(const Common& common) {
   const Stopwatch watch;
   const Polygon_soup soup = common.read();
   const double reading = watch.seconds();
-  const auto in_time = common.within_budget();
+  Progress progress("looking at fronts");
+  const auto in_time = common.within_budget(progress);
   const Scene scene(soup);
   const double preparing = watch.seconds() - reading;
   in_time(0, 1);
@@ -125,6 +126,7 @@ static Exit run(const Common& common) {
   const double closed_after = watch.seconds();
   const Fronts fronts = fronts_of(scene, common.seed, in_time);
   const double sampling = watch.seconds() - closed_after;
+  progress.clear();
   const Bit_budget& budget = scene.planes().budget();
 
   std::size_t supporting = 0;

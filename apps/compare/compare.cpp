@@ -77,7 +77,9 @@ bool claims_to_be_exact(const Json& row) {
 
 Exit ask(const Trial& trial, double budget, Json& rows) {
   bool disagree = false, undecided = false;
+  Progress progress("comparing");
   for (const Contestant& contestant : trial.contestants) {
+    progress(rows.size(), trial.contestants.size());
     rows.push_back(ask_apart(contestant, budget));
     const Json& r = rows.back();
     if (!claims_to_be_exact(r)) continue;

@@ -1,6 +1,7 @@
 #include "broken.h"
 
 #include "picture.h"
+#include "view.h"
 
 #include <sightline/harness/laws/reduce.h>
 
@@ -43,6 +44,7 @@ Json explained(const Judge_arguments& arguments, const Judge_case& asked, const 
                     {"words", line.words}};
   }
   json["picture"] = picture_of(asked.soup, asked.query, broken.grade, why);
+  json["view"] = view_of("judge", arguments.query, asked.soup, asked.query, broken.grade, why);
   return json;
 }
 

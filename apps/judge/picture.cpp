@@ -37,17 +37,17 @@ struct Extent {
   Direction3 middle() const { return {(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2}; }
 };
 
-/// A direction across the line that the face in question does not hide behind its edge.
-Direction3 best_look(const Direction3& line, const Direction3& normal) {
+/// A direction across the line that the face in question does not hide behind its edge; `front`: onto its front.
+Direction3 best_look(const Direction3& line, const Direction3& normal, bool front = false) {
   Direction3 best{1, 2, -1};
   double most = -1;
   for (const double x : {-2.0, -1.0, 0.3, 1.0, 2.0})
     for (const double y : {-2.0, -1.0, 0.5, 1.0, 2.0})
       for (const double z : {-1.2, -0.7, 0.7}) {
         const Direction3 look = unit({x, y, z});
-        const double along = dot(look, line);
+        const double along = dot(look, line), facing = dot(look, normal);
         const double value = std::sqrt(std::max(0.0, 1 - along * along)) *
-                             (0.4 + std::min(0.7, std::fabs(dot(look, normal)))) *
+                             (0.4 + std::min(0.7, front ? -facing : std::fabs(facing))) *
                              (z < 0 ? 1.1 : 1.0);  // rather from above
         if (value > most) {
           most = value;
@@ -186,30 +186,47 @@ void draw_line(Svg& svg, const View& view, const Shown_line& line, const judge::
 
 /// What the colours mean that are there, in a line at the bottom.
 void draw_key(Svg& svg, const judge::Query& query, const judge::Grade& grade, const judge::Explanation& why) {
-  const bool order = query.question == judge::Question::order, trace = query.question == judge::Question::trace,
-             solids = query.question == judge::Question::boolean;
   double x = 8;
   const auto key = [&](std::string_view colour, std::string_view words) {
     svg.rectangle(x, 344, 10, 10, colour);
     svg.label(x + 14, 353, 11, words);
     x += 26 + 5.8 * static_cast<double>(words.size());
   };
-  if (!grade.wrong_hidden.empty())
-    key("hsl(20,90%,58%)", order    ? "nearer, or missing"
-                           : trace  ? "met, but not named"
-                           : solids ? "lacks what is beside"
-                                    : "missing but visible");
-  if (!grade.wrong_visible.empty())
-    key("hsl(285,60%,62%)", order    ? "drawn over it"
-                            : trace  ? "named, but not met first"
-                            : solids ? "holds what is beside"
-                                     : "shown but hidden");
+  if (!grade.wrong_hidden.empty()) key("hsl(20,90%,58%)", words_of_wrong_hidden(query.question));
+  if (!grade.wrong_visible.empty()) key("hsl(285,60%,62%)", words_of_wrong_visible(query.question));
   if (why.refutation && why.refutation->by) key("hsl(205,55%,58%)", "in the way");
   if (query.question == judge::Question::weak) key("hsl(50,85%,60%)", "source");
   if (grade.wrong()) key("hsl(140,12%,72%)", "right");
 }
 
 }  // namespace
+
+std::array<double, 3> look_at_front(const Scene& scene, const judge::Explanation& why) {
+  const judge::Refutation& line = why.refutation.value();
+  return best_look(unit(near(minus(line.from, line.to))), normal_of_refuted(scene, why), true);
+}
+
+std::string_view words_of_wrong_hidden(judge::Question question) {
+  switch (question) {
+    case judge::Question::order: return "nearer, or missing";
+    case judge::Question::trace: return "met, but not named";
+    case judge::Question::boolean: return "lacks what is beside";
+    case judge::Question::see:
+    case judge::Question::weak: break;
+  }
+  return "missing but visible";
+}
+
+std::string_view words_of_wrong_visible(judge::Question question) {
+  switch (question) {
+    case judge::Question::order: return "drawn over it";
+    case judge::Question::trace: return "named, but not met first";
+    case judge::Question::boolean: return "holds what is beside";
+    case judge::Question::see:
+    case judge::Question::weak: break;
+  }
+  return "shown but hidden";
+}
 
 std::string picture_of(const Polygon_soup& soup, const judge::Query& query, const judge::Grade& grade,
                        const judge::Explanation& why) {

@@ -1,6 +1,6 @@
 // ---- Where one looks from
 
-const usualAway = unit([-0.6, -1.1, 0.7]);  // as the program's own pictures
+const usualAway = data.away || unit([-0.6, -1.1, 0.7]);  // as the program's own pictures
 /// From the eye one turns the look; else one goes round a point.
 const camera = {atEye: false, target: [0, 0, 0], distance: 1, yaw: 0, pitch: 0, field: 45};
 

@@ -93,14 +93,35 @@ commands.graph = () => {
   };
 };
 
+/// What plain doubles make of the same question, where the page knows: a switch that marks what they miss and what they add, all else in grey.
+function plainDoubles(who) {
+  const [missing, extra] = ['missing', 'extra'].map(key => new Set(data.doubles ? unpacked(data.doubles[key]) : [])), same = missing.size + extra.size === 0;
+  let shown = false;
+  return {
+    /// Null where the polygon has its own colour.
+    colourOf(k, isBeneath) {
+      const face = polygons.faces[k];
+      return !shown ? null : missing.has(face) ? palette.front : extra.has(face) ? palette.source : isBeneath ? palette.hidden : palette.face;
+    },
+    begin() {
+      if (!data.doubles) return;
+      const box = element('input', {type: 'checkbox', id: 'doubles', disabled: same, onchange: () => { shown = box.checked; paint(); }});
+      const names = set => [...set].slice(0, 30).join(', ') + (set.size > 30 ? ' …' : '');
+      section('Plain doubles', same ? element('p', {className: 'faint'}, `${who} finds the same faces.`)
+        : element('label', {className: 'row'}, box, `mark where they err: ${missing.size} visible faces missing, ${extra.size} hidden ones shown`),
+        same ? null : element('p', {className: 'faint', id: 'errors'}, (missing.size ? `missing: ${names(missing)}. ` : '') + (extra.size ? `shown: ${names(extra)}.` : '')));
+    },
+  };
+}
+
 /// Visible parts, lines, the sphere of directions.
 commands.see = () => {
   let base = 0;
   while (base < polygons.count && polygons.number(base) < data.base) ++base;
   drawing.base = base;
   const from = data.lines, lines = [], width = 1024, height = 512;
-  const doubles = data.doubles ? [new Set(unpacked(data.doubles.missing)), new Set(unpacked(data.doubles.extra))] : null;
-  let showHidden = true, showDoubles = false, sphere = null, plain = null, middle = 0;
+  const doubles = plainDoubles('The same algorithm on plain doubles');
+  let showHidden = true, sphere = null, plain = null, middle = 0;
   if (from) {
     const ends = unpacked(from.ends), edges = unpacked(from.edges), kinds = unpacked(from.kinds), hidden = unpacked(from.hidden_by);
     for (let i = 0; i < edges.length; ++i) {
@@ -158,13 +179,7 @@ commands.see = () => {
   };
   return {
     beginsAtEye: true,
-    /// What doubles miss, what they add, and all else in grey; by itself as ever.
-    colourOf(k) {
-      const own = colourOfGroup(polygons.groups[k]) || colourOfFace(polygons.faces[k]);
-      if (!showDoubles) return own;
-      const face = polygons.faces[k];
-      return doubles[0].has(face) ? palette.front : doubles[1].has(face) ? palette.source : k < base ? palette.hidden : palette.face;
-    },
+    colourOf: k => doubles.colourOf(k, k < base) || colourOfGroup(polygons.groups[k]) || colourOfFace(polygons.faces[k]),
     begin() {
       drawing.outlines = lines.length === 0 && drawing.outlines;
       if (lines.length > 0) {
@@ -173,13 +188,7 @@ commands.see = () => {
           element('p', {className: 'faint'}, 'Click an edge: what hides it lights up.'));
         drawLines();
       }
-      if (doubles) {
-        const same = doubles[0].size + doubles[1].size === 0, box = element('input', {type: 'checkbox', id: 'doubles', disabled: same, onchange: () => { showDoubles = box.checked; paint(); }});
-        const names = set => [...set].slice(0, 30).join(', ') + (set.size > 30 ? ' …' : '');
-        section('Plain doubles', same ? element('p', {className: 'faint'}, 'The same algorithm on plain doubles finds the same faces.')
-          : element('label', {className: 'row'}, box, `mark where they err: ${doubles[0].size} visible faces missing, ${doubles[1].size} hidden ones shown`),
-          same ? null : element('p', {className: 'faint', id: 'errors'}, (doubles[0].size ? `missing: ${names(doubles[0])}. ` : '') + (doubles[1].size ? `shown: ${names(doubles[1])}.` : '')));
-      }
+      doubles.begin();
       if (!gl || !eyePlace || polygons.count === 0) return;
       sphere = element('canvas', {id: 'sphere', width, height, ariaLabel: 'All directions from the eye, unrolled'});
       sphere.addEventListener('pointermove', e => {
@@ -228,12 +237,8 @@ commands.weak = () => {
     proofsOfFace.get(face).push(i);
   });
   const ends = i => [[...sight.ends.subarray(6 * i, 6 * i + 3)], [...sight.ends.subarray(6 * i + 3, 6 * i + 6)]];
-  const mark = (p, colour) => [0, 1, 2].map(k => {
-    const d = [0, 0, 0];
-    d[k] = 0.012 * bounds.radius;
-    return {from: minus(p, d), to: add(p, d), colour: [...colour, 255], width: 3};
-  });
   const sightline = i => { const [p, q] = ends(i); return [{from: p, to: q, colour: [...palette.front, 255], width: 3}, ...mark(p, palette.front), ...mark(q, palette.front)]; };
+  const doubles = plainDoubles('A search in plain doubles');
   let blockers = new Set(), showAll = false;
   /// Where the part of a walk that begins at a step ends.
   const endOf = step => {
@@ -283,11 +288,12 @@ commands.weak = () => {
   return {
     repaints: true,
     colourOf(k) {
-      const role = data.groups[polygons.groups[k]].role;
-      return blockers.has(k) && selected >= 0 ? palette.other : palette[role];
+      const role = data.groups[polygons.groups[k]].role, marked = k < base ? doubles.colourOf(k, false) : null;
+      return marked ? marked : blockers.has(k) && selected >= 0 ? palette.other : palette[role];
     },
     begin() {
       setLines('sources', outlinesOf([...Array(polygons.count - base).keys()].map(k => base + k), palette.source, 2), true);
+      doubles.begin();
       if (sight.pieces.length === 0) return;
       const box = element('input', {type: 'checkbox', onchange: () => { showAll = box.checked; drawAll(); }});
       section('Sightlines', element('label', {className: 'row'}, box, `all of them${sight.pieces.length > 2000 ? ', the first 2000' : ''}`),
@@ -312,6 +318,15 @@ commands.weak = () => {
   };
 };
 
+/// A cross about a place, of a size that is a share of the scene's.
+function mark(p, colour, size = 0.012) {
+  return [0, 1, 2].map(k => {
+    const d = [0, 0, 0];
+    d[k] = size * bounds.radius;
+    return {from: minus(p, d), to: add(p, d), colour: [...colour, 255], width: 3};
+  });
+}
+
 /// The path, played.
 commands.cutset = () => {
   const from = data.frames, numbers = unpacked(from.numbers), cuts = unpacked(from.cut_edges), tests = unpacked(from.tests), far = unpacked(from.at_infinity), on = unpacked(from.on_view);
@@ -319,10 +334,9 @@ commands.cutset = () => {
   const isOn = (frame, k) => bit(on, frame * polygons.of + polygons.number(k)) === 1;
   let frame = 0, follows = false;
   const eyeLines = () => {
-    const p = from.places[frame], r = 0.03 * bounds.radius;
+    const p = from.places[frame];
     if (!p || follows) return [];
-    return [0, 1, 2].map(k => { const d = [0, 0, 0]; d[k] = r; return {from: minus(p, d), to: add(p, d), colour: [...palette.front, 255], width: 3}; })
-      .concat([{from: p, to: bounds.middle, colour: [...palette.front, 120], width: 1, dash: 8}]);
+    return mark(p, palette.front, 0.03).concat([{from: p, to: bounds.middle, colour: [...palette.front, 120], width: 1, dash: 8}]);
   };
   const cutLines = () => {
     const list = [];
@@ -476,6 +490,23 @@ commands.compare = () => {
     begin() {
       section('Seconds and errors', where, element('div', {id: 'methods'}, list));
       if (methods.length > 0) choose(methods[0]);
+    },
+  };
+};
+
+/// What an answer has wrong, and the line that refutes it: dashed beyond what it meets.
+commands.judge = commands.report = () => {
+  const line = data.refutation, source = polygons.faces.indexOf(noFace);  // which comes after all faces
+  drawing.base = Math.max(0, source);
+  const withHalo = list => [...list.map(one => ({...one, colour: [255, 255, 255, 255], width: one.width + 3})), ...list];  // on faces and paper of any colour
+  return {
+    begin() {
+      if (source >= 0) setLines('source', outlinesOf([source], palette.source, 2), true);
+      if (eyePlace) setLines('eye', withHalo(mark(eyePlace, ink, 0.04)), true);
+      if (!line) return;
+      const [from, to, at] = [line.from, line.to, line.at || line.to];
+      setLines('refutation', withHalo([{from, to: at, colour: [...ink, 255], width: 3}, {from: at, to, colour: [...ink, 255], width: 2, dash: 9}, ...mark(at, ink, 0.02), ...mark(to, ink, 0.02)]), true);
+      section('Why it is wrong', element('p', {id: 'why'}, line.words));
     },
   };
 };

@@ -66,15 +66,15 @@ function trianglesOf() {
 }
 const triangles = trianglesOf();
 
-/// Corners of faces, which views are fitted to; sources may be far away. All corners where there is no face.
+/// Corners of faces, which views are fitted to; sources may be far away. All corners where there is no face. And places that the page wants in view.
 const framed = (function () {
-  const list = [];
+  const list = [], all = corners => data.around ? Float32Array.from([...corners, ...unpacked(data.around)]) : corners;
   for (let k = 0; k < polygons.count; ++k) if (polygons.faces[k] === noFace) list.push(k);
-  if (list.length === 0 || list.length === polygons.count) return polygons.corners;
+  if (list.length === 0 || list.length === polygons.count) return all(polygons.corners);
   const kept = [];
   for (let k = 0; k < polygons.count; ++k)
     if (polygons.faces[k] !== noFace) for (let i = 3 * polygons.first[k]; i < 3 * polygons.first[k + 1]; ++i) kept.push(polygons.corners[i]);
-  return Float32Array.from(kept);
+  return all(Float32Array.from(kept));
 }());
 
 /// The box of these corners: its middle, half its diagonal; and how far from the middle there is anything, up to a hundred times that.

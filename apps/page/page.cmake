@@ -15,6 +15,8 @@ add_page_constant(page_text page.html)
 add_page_constant(page_style page.css)
 list(TRANSFORM page_scripts APPEND ".js")
 add_page_constant(page_script "${page_scripts}")
+add_page_constant(turn_style turn.css)
+add_page_constant(turn_script turn.js)
 file(CONFIGURE OUTPUT page_sources.cpp @ONLY
      CONTENT "#include \"${CMAKE_CURRENT_LIST_DIR}/../support/page_sources.h\"\n\nnamespace sightline::app {\n\n@constants@\n}  // namespace sightline::app\n")
 target_sources(sightline PRIVATE "${PROJECT_BINARY_DIR}/page_sources.cpp")

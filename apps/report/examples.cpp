@@ -3,6 +3,7 @@
 #include "examples.h"
 
 #include "../judge/picture.h"
+#include "../judge/view.h"
 
 #include <sightline/harness/judge/truth.h>
 #include <sightline/harness/laws/reduce.h>
@@ -117,6 +118,9 @@ void explain_case(const Judge_case& asked, const Json& said, report::Example& ex
       if (why.refutation) example.why = why.refutation->words;
     }
     example.picture = picture_of(asked.soup, asked.query, grade, why);
+    Polygon_soup named = asked.soup;
+    named.file = example.file;
+    example.view = view_of("report", example.who.question, named, asked.query, grade, why);
   } catch (const std::exception&) {
     example.picture.clear();  // nothing to see: no point, or numbers beyond those of a picture
   }

@@ -1,5 +1,6 @@
 // sightline report: speed against error, every question to every method and kernel, on families and real scenes.
 
+#include "../support/page.h"
 #include "answers.h"
 #include "examples.h"
 
@@ -49,7 +50,7 @@ void write(const Report_arguments& a, const report::Report& report) {
       if (!e.query.empty()) write_file(fs::path(file).replace_extension(".json").string(), e.query);
     }
   }
-  if (!a.html.empty()) write_file(a.html, report::report_page(report));
+  if (!a.html.empty()) write_file(a.html, report::report_page(report, scenes_within()));
   if (!a.svg.empty()) write_file(a.svg, report::report_picture(report));
   if (!a.json.empty()) write_file(a.json, to_text(report::to_json(report), 1) + "\n");
   if (!a.quiet) print(report);

@@ -123,6 +123,9 @@ Json compare_result() {
   return any_of({order_answer(), see_answer(), weak_answer(), render_answer(), trace_answer(), pvs_answer()});
 }
 
+/// A scene to turn around: the data of a page.
+static Json a_view() { return any_of({type("object"), type("null")}); }
+
 Members judge_members() {
   const Json count = a_count(), face = a_face(), text = type("string"), number = type("number");
   const Json faces = named("faces"), texts = list_of(text), seconds = any_of({number, type("null")});
@@ -146,8 +149,11 @@ Members judge_members() {
                             {"to", named("point")},
                             {"by", any_of({face, type("null")})},
                             {"words", text}});
-  const Json explained =
-      object({{"share", number}, {"share_words", text}, {"line", any_of({line, type("null")})}, {"picture", text}});
+  const Json explained = object({{"share", number},
+                                 {"share_words", text},
+                                 {"line", any_of({line, type("null")})},
+                                 {"picture", text},
+                                 {"view", a_view()}});
   const Members broken{
       {"faces", count}, {"mark", one_word_of(marks)}, {"why", text}, {"again", text}, {"explained?", explained}};
   const Members failure =
@@ -200,7 +206,8 @@ Members report_members() {
                                                {"query", text},
                                                {"why", text},
                                                {"again", text},
-                                               {"picture", text}}));
+                                               {"picture", text},
+                                               {"view", a_view()}}));
   return {{"asked", type("object")},
           {"contents", {{"type", "object"}, {"additionalProperties", text}}},
           {"shard", tuple_of(count, 2)},

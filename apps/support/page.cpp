@@ -64,7 +64,8 @@ Json packed(const std::vector<bool>& bits) {
 
 // ---- What is put together
 
-Page::Page(const std::string& command, const Scene& scene) : command_(command), scene_(scene.file()) {
+Page::Page(const std::string& command, const Scene& scene, std::size_t triangles)
+    : command_(command), scene_(scene.file()), most_triangles_(triangles) {
   if (scene.points().size() == 0) return;
   const auto box = scene.box();
   Rational side = 0;
@@ -125,7 +126,7 @@ void Page::add_polygon(std::uint32_t face, const std::vector<Exact_point>& corne
     exact_.push_back(at->second);
     text_bytes_ += 3 + (is_new ? at->first.size() + 3 : 0);
   }
-  constexpr std::size_t most_text_bytes = 300000;
+  const std::size_t most_text_bytes = std::min<std::size_t>(300000, 40 * most_triangles_);
   if (text_bytes_ > most_text_bytes) {
     keeps_texts_ = false;
     texts_.clear();
@@ -142,7 +143,7 @@ void Page::add_polygon(std::uint32_t face, const std::vector<Exact_point>& corne
     }
   kept_.back().area = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
   triangles_ += corners.size() - 2;
-  if (triangles_ > 2 * most_triangles) keep_the_largest(most_triangles);
+  if (triangles_ > 2 * most_triangles_) keep_the_largest(most_triangles_);
 }
 
 void Page::add_pieces(const Scene& scene, const std::function<std::uint32_t(std::uint32_t)>& group_of) {
@@ -210,8 +211,8 @@ Json Page::polygons_json() const {
   return json;
 }
 
-void Page::write(const std::string& file) {
-  if (triangles_ > most_triangles) keep_the_largest(most_triangles);
+Json Page::data() {
+  if (triangles_ > most_triangles_) keep_the_largest(most_triangles_);
   const bool is_thinned = kept_.size() < added_;
   if (is_thinned) add_note(fmt::format("thinned: of {} polygons the {} largest are drawn", added_, kept_.size()));
   if (!keeps_texts_) add_note("coordinates are rounded: those of so many corners would take too much of a page");
@@ -233,10 +234,17 @@ void Page::write(const std::string& file) {
     data["polygons"]["exact"] = {{"texts", texts}, {"corners", packed(exact_)}};
   }
   for (auto& [key, value] : more_.items()) data[key] = std::move(value);
+  return data;
+}
 
-  // Text of JSON within a page: no tag begins or ends in it.
-  std::string block = data.dump(-1, ' ', false, Json::error_handler_t::replace), text;
-  text.reserve(page_text.size() + page_style.size() + page_script.size() + block.size() + 1000);
+namespace {
+
+constexpr std::string_view data_mark = "<!--data-->";
+
+/// The text of pages, with this in the place of data.
+std::string page_around(std::string_view data) {
+  std::string text;
+  text.reserve(page_text.size() + page_style.size() + page_script.size() + data.size());
   for (std::size_t i = 0; i < page_text.size();) {
     const auto put = [&](std::string_view mark, std::string_view what) {
       if (!page_text.substr(i).starts_with(mark)) return false;
@@ -244,17 +252,32 @@ void Page::write(const std::string& file) {
       i += mark.size();
       return true;
     };
-    if (page_text[i] == '<' && (put("<!--style-->", page_style) || put("<!--script-->", page_script))) continue;
-    if (page_text[i] == '<' && page_text.substr(i).starts_with("<!--data-->")) {
-      for (const char c : block)
-        if (c == '<') text += "\\u003c";
-        else text += c;
-      i += std::string_view("<!--data-->").size();
+    if (page_text[i] == '<' &&
+        (put("<!--style-->", page_style) || put("<!--script-->", page_script) || put(data_mark, data)))
       continue;
-    }
     text += page_text[i++];
   }
-  write_file(file, text);
+  return text;
 }
+
+}  // namespace
+
+std::string in_page(const Json& data) {
+  std::string text;
+  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
+    if (c == '<') text += "\\u003c";
+    else text += c;
+  return text;
+}
+
+std::string scenes_within() {
+  return fmt::format(
+      "<style>\n{}</style>\n<script type=\"application/json\" id=\"viewer\">{}</script>\n<script>\n'use "
+      "strict';\n(function "
+      "() {{\n{}}}());\n</script>\n",
+      turn_style, in_page(page_around(data_mark)), turn_script);
+}
+
+void Page::write(const std::string& file) { write_file(file, page_around(in_page(data()))); }
 
 }  // namespace sightline::app

@@ -24,6 +24,14 @@ Json packed(const std::vector<float>& numbers);
 /// Bits, the first the lowest of its byte: {"type": "u8", ...}.
 Json packed(const std::vector<bool>& bits);
 
+/// JSON as it stands in an element of a page: no tag begins or ends in it.
+std::string in_page(const Json& data);
+
+/// What stands at the end of a page of another kind, so that its scenes can be turned around: the text of pages, once,
+/// and what puts data() of Page into it where a button with `data-view="N"` asks for the N-th of the array in the
+/// element `views`.
+std::string scenes_within();
+
 /// A page as it is put together. Its places are (x - middle) / size for the middle of the scene's box and a power of
 /// two, so that scenes far away, and of any size, keep what a float can hold.
 /// Post: a file of at most 1 MB and 40 bytes a triangle, and what the command adds. Of more than most_triangles it
@@ -34,7 +42,8 @@ class Page {
   static constexpr std::size_t most_triangles = 400000;
   static constexpr std::uint32_t no_face = ~std::uint32_t{0};
 
-  Page(const std::string& command, const Scene& scene);
+  /// Of more triangles than these it shows the largest polygons.
+  Page(const std::string& command, const Scene& scene, std::size_t triangles = most_triangles);
 
   /// A line of the page's table.
   void add_fact(const std::string& name, const std::string& value) { facts_.push_back({name, value}); }
@@ -62,6 +71,8 @@ class Page {
   /// What the command has to say, by its own keys.
   Json& more() { return more_; }
 
+  /// What stands in its block of data. Post: nothing is to be added.
+  Json data();
   /// Writes it, whole or not at all. Errors: as write_file.
   void write(const std::string& file);
 
@@ -74,6 +85,7 @@ class Page {
   Json polygons_json() const;
 
   std::string command_, scene_;
+  std::size_t most_triangles_;
   Exact_point middle_;
   Rational size_ = 1;
   std::vector<std::array<std::string, 2>> facts_, groups_;

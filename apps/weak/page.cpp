@@ -3,6 +3,7 @@
 #include "../support/page.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace sightline::app {
 
@@ -61,10 +62,17 @@ Json proofs_json(Page& page, const Weakly_visible& found) {
           {"kinds", packed(kinds)},   {"of", packed(of)},           {"corners", packed(corners)}};
 }
 
+/// Of two sorted lists.
+std::vector<Face_id> in_both(const std::vector<Face_id>& faces, const std::vector<Face_id>& others) {
+  std::vector<Face_id> both;
+  std::set_intersection(faces.begin(), faces.end(), others.begin(), others.end(), std::back_inserter(both));
+  return both;
+}
+
 }  // namespace
 
 void write_page(const Weak_arguments& arguments, const Scene& scene, const Sources& sources,
-                const Weakly_visible& found, const std::vector<std::string>& names) {
+                const Weakly_visible& found, const std::vector<std::string>& names, const Weakly_visible* doubles) {
   static const std::vector<std::string> groups{"visible", "hidden", "undecided", "source"};
   Page page("weak", scene);
   page.add_fact("faces", fmt::format("{}", scene.counters().faces));
@@ -84,6 +92,9 @@ void write_page(const Weak_arguments& arguments, const Scene& scene, const Sourc
   for (const std::vector<Exact_point>& source : sources.points) page.add_polygon(Page::no_face, source, 3);
   page.more()["sightlines"] = sightlines_json(page, scene, found);
   page.more()["proofs"] = proofs_json(page, found);
+  if (doubles != nullptr)
+    page.more()["doubles"] = {{"missing", packed(in_both(found.visible, doubles->hidden))},
+                              {"extra", packed(in_both(found.hidden, doubles->visible))}};
   page.write(arguments.html);
 }
 

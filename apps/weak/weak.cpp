@@ -11,6 +11,7 @@
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 
+#include <optional>
 #include <tuple>
 
 namespace sightline::app {
@@ -73,6 +74,14 @@ Weak_task task_of(const Weak_arguments& arguments, const Report& report) {
   return task;
 }
 
+/// What a search in doubles makes of the same, for the page of an exact answer; with a budget there is no time for it.
+std::optional<Weakly_visible> found_by_doubles(Weak_arguments arguments, const Occluders& occluders,
+                                               const Sources& sources) {
+  if ((arguments.method != "lines" && arguments.method != "events") || arguments.common.budget > 0) return std::nullopt;
+  arguments.method = "doubles";
+  return run_weak_method(arguments.method, occluders, sources, task_of(arguments, {})).found;
+}
+
 /// The certificate, surfaces, pictures and the page, where they are asked for.
 void write_outputs(const Weak_arguments& arguments, const Polygon_soup& soup, const Occluders& occluders,
                    const Sources& sources, const Weak_outcome& outcome) {
@@ -90,7 +99,10 @@ void write_outputs(const Weak_arguments& arguments, const Polygon_soup& soup, co
   if (!arguments.svg.empty()) draw(arguments, soup, occluders, sources, names);
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(scene, sources, names));
-  if (!arguments.html.empty()) write_page(arguments, scene, sources, found, names);
+  if (!arguments.html.empty()) {
+    const std::optional<Weakly_visible> doubles = found_by_doubles(arguments, occluders, sources);
+    write_page(arguments, scene, sources, found, names, doubles ? &*doubles : nullptr);
+  }
 }
 
 Json counters_of(const Weak_outcome& outcome) {

@@ -258,7 +258,8 @@ Explanation explain_order(const Polygon_soup& soup, const Query& query, const An
                         {},
                         {},
                         "from " + words_of(query.eye) + " through " + words_of(to) + ", " + face_words(earlier) +
-                            " is nearer than " + face_words(later) + ", which is drawn over it"};
+                            " is nearer than " + face_words(later) + ", which is drawn over it",
+                        later};
     }
   }
   for (const Face_id face : grade.wrong_hidden)

@@ -16,9 +16,10 @@ namespace sightline::judge {
 struct Refutation {
   Face_id face = 0;
   Exact_point from, to;
-  std::optional<Face_id> by;      ///< the face that the segment meets first, where it shows that one is not seen
-  std::optional<Exact_point> at;  ///< where it does
-  std::string words;              ///< one line: what the segment shows
+  std::optional<Face_id> by;         ///< the face that the segment meets first, where it shows that one is not seen
+  std::optional<Exact_point> at;     ///< where it does
+  std::string words;                 ///< one line: what the segment shows
+  std::optional<Face_id> over = {};  ///< of an order: the face that is farther, and drawn over it
 };
 
 struct Explanation {

@@ -45,9 +45,36 @@ std::size_t place_of(const std::string& question, const std::vector<Question>& q
   return static_cast<std::size_t>(found - questions.begin());
 }
 
-Json examples_json(const std::vector<Example>& examples) {
+/// JSON as it stands in an element of a page: no tag begins or ends in it.
+std::string in_element(const Json& json) {
+  std::string text;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))
+    if (c == '<') text += "\\u003c";
+    else text += c;
+  return text;
+}
+
+/// Scenes to turn around: of the examples with the smallest, as many as there is room for, by their numbers; of the
+/// others null.
+Json views_json(const std::vector<Example>& examples) {
+  constexpr std::size_t most_bytes = 300'000;
+  std::vector<std::pair<std::size_t, std::size_t>> sizes;
+  for (std::size_t k = 0; k < examples.size(); ++k)
+    if (!examples[k].view.is_null()) sizes.push_back({in_element(examples[k].view).size(), k});
+  std::sort(sizes.begin(), sizes.end());
+  Json views = Json::array();
+  for (std::size_t k = 0; k < examples.size(); ++k) views.push_back(nullptr);
+  std::size_t bytes = 0;
+  for (const auto& [size, k] : sizes)
+    if ((bytes += size) <= most_bytes) views[k] = examples[k].view;
+  return views;
+}
+
+/// `views`: which of them have one.
+Json examples_json(const std::vector<Example>& examples, const Json& views) {
   Json all = Json::array();
   for (const Example& e : examples) {
+    const bool has_view = all.size() < views.size() && !views[all.size()].is_null();
     std::string picture = e.picture;
     constexpr std::string_view name_space = " xmlns=\"http://www.w3.org/2000/svg\"";  // within a page it is known
     if (const std::size_t at = picture.find(name_space); at != std::string::npos) picture.erase(at, name_space.size());
@@ -65,13 +92,14 @@ Json examples_json(const std::vector<Example>& examples) {
                    {"query", e.query},
                    {"why", e.why},
                    {"again", e.again},
-                   {"picture", picture}});
+                   {"picture", picture},
+                   {"view", has_view ? Json(all.size()) : Json()}});
   }
   return all;
 }
 
 /// What the script draws.
-Json page_data(const Report& report) {
+Json page_data(const Report& report, const Json& views) {
   // 1. Contenders, in the order of their questions, with all that is known of each.
   std::vector<Summary> summed = summaries(report.rows);
   std::stable_sort(summed.begin(), summed.end(), [&](const Summary& a, const Summary& b) {
@@ -122,20 +150,22 @@ Json page_data(const Report& report) {
           {"families", families.all()},
           {"distances", distances.all()},
           {"rows", std::move(rows)},
-          {"examples", examples_json(report.examples)}};
+          {"examples", examples_json(report.examples, views)}};
 }
 
 }  // namespace
 
-std::string report_page(const Report& report) {
-  std::string data = page_data(report).dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (std::size_t at = data.find("</"); at != std::string::npos; at = data.find("</", at + 3))
-    data.replace(at, 2, "<\\/");  // so that nothing in it ends the element
+std::string report_page(const Report& report, const std::string& viewer) {
+  const Json views = viewer.empty() ? Json::array() : views_json(report.examples);
   return std::string("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">") +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">" +
          "<title>sightline report: speed against error</title><style>" + page_style + "</style></head>\n<body>" +
-         page_frame + "<script id=\"data\" type=\"application/json\">" + data + "</script>\n<script>" + page_script +
-         "</script>\n</body></html>\n";
+         page_frame + "<script id=\"data\" type=\"application/json\">" + in_element(page_data(report, views)) +
+         "</script>\n<script>" + page_script + "</script>\n" +
+         (viewer.empty()
+              ? ""
+              : "<script id=\"views\" type=\"application/json\">" + in_element(views) + "</script>\n" + viewer) +
+         "</body></html>\n";
 }
 
 }  // namespace sightline::report

@@ -8,7 +8,9 @@
 namespace sightline::report {
 
 /// One self-contained HTML file, with plots that answer to the pointer; without a network. Rows beyond 30,000 are left
-/// out evenly and counted on it; tables and examples are of all.
-std::string report_page(const Report& report);
+/// out evenly and counted on it; tables and examples are of all. `viewer`: what stands at its end and opens scenes that
+/// a button with `data-view` asks for, of the element `views`, as scenes_within() of the program does; without it there
+/// are no such buttons, nor where the views of smaller ones take 300 kB.
+std::string report_page(const Report& report, const std::string& viewer = "");
 
 }  // namespace sightline::report

@@ -12,7 +12,7 @@ body { font: 14px/1.45 system-ui, sans-serif; margin: 0 auto; padding: 20px 24px
 h1 { font-size: 23px; margin: 0 0 4px } h2 { font-size: 19px; margin: 38px 0 2px } h3 { font-size: 15px; margin: 22px 0 6px }
 p { margin: 4px 0 8px } .soft { color: var(--soft) } code { font: 12px/1.4 ui-monospace, monospace; overflow-wrap: anywhere }
 .bar { position: sticky; top: 0; z-index: 3; background: var(--paper); border-bottom: 1px solid var(--line); padding: 8px 0; display: flex; flex-wrap: wrap; gap: 6px 18px; align-items: center }
-.bar nav a { margin-right: 12px } a { color: var(--accent) }
+.bar nav { display: flex; flex-wrap: wrap; gap: 0 12px } a { color: var(--accent) }
 select, button { font: inherit; color: var(--ink); background: var(--panel); border: 1px solid var(--line); border-radius: 5px; padding: 2px 8px }
 button { cursor: pointer } :focus-visible { outline: 2px solid var(--accent); outline-offset: 1px }
 .plot { display: grid; grid-template-columns: minmax(0, 1fr) 292px; gap: 14px; align-items: start }
@@ -209,7 +209,7 @@ const section = q => {
     const copy = element('button', { type: 'button', onclick: () => { navigator.clipboard?.writeText(e.again); copy.textContent = 'copied'; } }, 'copy');
     const links = element('div', { class: 'row' }, copy, save(e.file, e.scene));
     if (e.query) links.append(save(e.file.replace(/[.]off$/, '.json'), e.query));
-    cards.append(element('div', { class: 'card' }, element('b', {}, `${e.method} (${e.kernel})`), element('div', { class: 'soft' }, `${e.faces} ${e.faces === 1 ? 'face' : 'faces'}, made of ${e.faces_before} of ${e.family}, ${e.distance}, seed ${e.seed}; error ${number(e.error)}`), picture, ...(e.why ? [element('p', {}, e.why)] : []), element('code', {}, e.again), links));
+    cards.append(element('div', { class: 'card' }, element('b', {}, `${e.method} (${e.kernel})`), element('div', { class: 'soft' }, `${e.faces} ${e.faces === 1 ? 'face' : 'faces'}, made of ${e.faces_before} of ${e.family}, ${e.distance}, seed ${e.seed}; error ${number(e.error)}`), picture, ...(e.view === null ? [] : [element('button', { type: 'button', 'data-view': e.view, 'aria-expanded': false }, 'turn it around')]), ...(e.why ? [element('p', {}, e.why)] : []), element('code', {}, e.again), links));
   }
   byId('main').append(element('section', { id: 'q' + q }, element('h2', {}, data.questions[q].question), element('p', { class: 'soft' }, 'Error: ' + data.questions[q].error + '. A mark is a method and kernel at one size, larger for larger scenes; a line joins its sizes.'), element('div', { class: 'plot' }, svg, legend), tables));
   if (examples.length) byId('q' + q).append(element('h3', {}, 'The smallest scene that shows each error'), cards);

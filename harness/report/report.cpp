@@ -61,15 +61,16 @@ Json to_json(const Example& e) {
                {"query", e.query},
                {"why", e.why},
                {"again", e.again},
-               {"picture", e.picture}});
+               {"picture", e.picture},
+               {"view", e.view}});
   return json;
 }
 Example example_from_json(const nlohmann::json& v) {
-  return {contender_from_json(v),          member<std::string>(v, "family"), member<std::string>(v, "distance"),
-          member<std::size_t>(v, "size"),  member<std::uint64_t>(v, "seed"), member<std::size_t>(v, "faces_before"),
-          member<std::size_t>(v, "faces"), member<double>(v, "error"),       member<std::string>(v, "file"),
-          member<std::string>(v, "scene"), member<std::string>(v, "query"),  member<std::string>(v, "why"),
-          member<std::string>(v, "again"), member<std::string>(v, "picture")};
+  return {contender_from_json(v),          member<std::string>(v, "family"),  member<std::string>(v, "distance"),
+          member<std::size_t>(v, "size"),  member<std::uint64_t>(v, "seed"),  member<std::size_t>(v, "faces_before"),
+          member<std::size_t>(v, "faces"), member<double>(v, "error"),        member<std::string>(v, "file"),
+          member<std::string>(v, "scene"), member<std::string>(v, "query"),   member<std::string>(v, "why"),
+          member<std::string>(v, "again"), member<std::string>(v, "picture"), v.value("view", nlohmann::json())};
 }
 
 Json to_json(const Summary& s) {

@@ -58,6 +58,7 @@ struct Example {
   std::string why;          ///< what refutes the answer, in words; empty where nothing does by itself
   std::string again;        ///< the command that shows the error, beside the file
   std::string picture;      ///< SVG
+  Json view = nullptr;      ///< the scene to turn around: the data of a page (apps/page); null: none
 };
 
 /// What a question's error is a share of, for people.

@@ -470,6 +470,7 @@ TEST(Explanation, of_an_order_names_a_direction_in_which_it_is_wrong) {
   ASSERT_TRUE(why.refutation);
   EXPECT_EQ(why.refutation->face, 1u);
   EXPECT_EQ((why.refutation->to[2]), 1);
+  EXPECT_EQ(why.refutation->over, Face_id{0});
   // The lower square, at distance 2, is all behind the upper one: half as wide in the view.
   EXPECT_NEAR(why.share, 4 * std::asin(1.0 / 5) / (4 * 3.14159265358979), 1e-12);
   EXPECT_EQ(explained(soup, question(Question::order, {0, 0, 2}), "0\n").refutation->words,

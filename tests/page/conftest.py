@@ -47,6 +47,13 @@ class Page:
         browser.get(path.as_uri())
         assert self.js("return document.documentElement.dataset.ready") == "yes", browser.get_log("browser")
 
+    @classmethod
+    def within(cls, browser, data):
+        """That of a frame which the browser is in."""
+        page = cls.__new__(cls)
+        page.browser, page.data = browser, data
+        return page
+
     def js(self, text, *arguments):
         return self.browser.execute_script(text, *arguments)
 

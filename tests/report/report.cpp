@@ -163,12 +163,13 @@ TEST(Report, of_all_shards_is_the_whole) {
   EXPECT_NE(refused({half(0), unfinished}).find("shard 1 was not finished"), std::string::npos);
 }
 
-/// What the script of a page reads.
-Json data_of(const std::string& page) {
-  const std::string begin = "<script id=\"data\" type=\"application/json\">";
+/// What an element of a page holds, and what its script reads.
+Json json_in(const std::string& page, const std::string& id) {
+  const std::string begin = "<script id=\"" + id + "\" type=\"application/json\">";
   const std::size_t from = page.find(begin) + begin.size();
   return Json::parse(page.substr(from, page.find("</script>", from) - from), nullptr, false);
 }
+Json data_of(const std::string& page) { return json_in(page, "data"); }
 
 TEST(Report_page, holds_all_rows_and_nothing_that_ends_its_data) {
   Report report = whole();
@@ -193,13 +194,44 @@ TEST(Report_page, holds_all_rows_and_nothing_that_ends_its_data) {
   publish(half(0), half(1), "/dev/null");
 }
 
+TEST(Report_page, opens_scenes_where_something_opens_them_as_many_as_there_is_room_for) {
+  Report report = whole();
+  report.examples.assign(6, report.examples[0]);
+  report.examples[0].view = {{"notes", {std::string(400'000, 'x')}}};
+  report.examples[1].view = {{"notes", {"</script>"}}};
+  report.examples[2].view = nullptr;
+  for (std::size_t k : {3, 4, 5})
+    report.examples[k].view = {{"notes", {std::string(100'000, static_cast<char>('0' + k))}}};
+  const std::string page = report_page(report, "<script>open them</script>\n");
+  EXPECT_LT(page.size(), 400'000u);
+  EXPECT_NE(page.find("<script>open them</script>\n</body>"), std::string::npos);
+  const Json views = json_in(page, "views"), examples = json_in(page, "data")["examples"];
+  ASSERT_EQ(views.size(), 6u);
+  ASSERT_EQ(examples.size(), 6u);
+  EXPECT_EQ(views[1]["notes"][0], "</script>");
+  for (std::size_t k = 0; k < 6; ++k) {
+    const bool is_there = k == 1 || k == 3 || k == 4;
+    EXPECT_EQ(examples[k]["view"], is_there ? Json(k) : Json()) << k;
+    EXPECT_EQ(views[k].is_null(), !is_there) << k;
+  }
+  const std::string without = report_page(report);
+  EXPECT_EQ(without.find("id=\"views\""), std::string::npos);
+  for (const Json& e : json_in(without, "data")["examples"]) EXPECT_TRUE(e["view"].is_null());
+
+  // It goes through the document, and documents of before are read.
+  nlohmann::json document = to_json(report);
+  EXPECT_EQ(report_from_json(document).examples[1].view, report.examples[1].view);
+  for (nlohmann::json& e : document["result"]["examples"]) e.erase("view");
+  EXPECT_TRUE(report_from_json(document).examples[1].view.is_null());
+}
+
 TEST(Report_page, of_very_many_rows_is_below_3_MB_and_says_what_it_leaves_out) {
   Report report = whole();
   while (report.rows.size() < 65'000)
     report.rows.push_back(row(report.rows.size(), "m" + std::to_string(report.rows.size() % 70), "float",
                               1.23456e-5 * static_cast<double>(report.rows.size()), 0.123456, 0));
   const std::string page = report_page(report);
-  EXPECT_LT(page.size(), 3'000'000u);
+  EXPECT_LT(page.size(), 2'600'000u) << "scenes to turn around and what opens them take 400 kB";
   const Json data = data_of(page);
   EXPECT_LE(data["rows"].size(), 30'000u);
   EXPECT_GT(data["rows"].size(), 20'000u);
