@@ -11,6 +11,7 @@
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/io/format.h>
+#include <sightline/io/off.h>
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
@@ -109,7 +110,7 @@ std::vector<Shadows> shadows_of(const Shadow_arguments& arguments, const Scene& 
 /// What is told of the space behind a light's shadows.
 struct Told_volume {
   Json json;
-  std::string text;
+  std::string text, warning;
 };
 
 /// Writes the space in the shadow of one light.
@@ -138,6 +139,10 @@ Told_volume write_volume(const Shadow_arguments& arguments, const Scene& scene, 
       "{} faces, {:.3f} seconds{}{}",
       digits_of(size, 6), made.casting, flat.face_count(), since.seconds(), rounding ? "; rounded: " : "",
       rounding ? rounding_text(*rounding) : "");
+  if (!rounding && !is_read_by_all(flat))
+    told.warning = fmt::format(
+        "its points have a common denominator of more than {} bits: commands read {} with --coordinates double only",
+        largest_common_denominator_bits, arguments.volume);
   return told;
 }
 
@@ -224,6 +229,7 @@ Exit run(const Shadow_arguments& arguments) {
   print(lights, all);
   print(faces, scene, arguments.two_sided);
   if (space) row("volume", space->text);
+  if (space && !space->warning.empty()) row("exact", space->warning);
   if (whole > 0)
     row("picture", fmt::format("{} parts smaller than a pixel are drawn whole, in the light of most of them", whole));
   row("seconds", fmt::format("{:.4f}", seconds));

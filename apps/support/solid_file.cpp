@@ -2,6 +2,7 @@
 
 #include <sightline/io/format.h>
 #include <sightline/io/exact_text.h>
+#include <sightline/io/off.h>
 #include <sightline/io/write.h>
 
 #include <fmt/format.h>
@@ -49,6 +50,13 @@ std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::
                                          to_float ? "floats" : "doubles",
                                          to_float ? ", or leave out --round float" : ""));
   }
+}
+
+bool is_read_by_all(const Polygon_soup& soup) {
+  Common_denominator common;  // as its reader asks
+  for (std::size_t k = 0; k < soup.coordinates.size(); ++k)
+    if (!common.include(soup.coordinates[k].get_den())) return false;
+  return true;
 }
 
 Json rounding_json(const Rounded_surface& near) {

@@ -20,6 +20,9 @@ Check solid_ending();
 std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap,
                                            const Rounding_progress& progress = {});
 
+/// Whether all commands read a .qoff of a surface: its common denominator is short enough.
+bool is_read_by_all(const Polygon_soup& soup);
+
 Json rounding_json(const Rounded_surface& near);
 std::string rounding_text(const Rounded_surface& near);
 

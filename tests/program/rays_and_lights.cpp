@@ -139,4 +139,21 @@ TEST_F(Rays_and_lights, shadow_names_lit_and_dark_parts) {
   EXPECT_EQ(run({"shadow", scene, "--light", "1,2,3", "--eye", "1,2,3"}).code, usage);
 }
 
+TEST_F(Rays_and_lights, shadow_says_that_few_commands_read_an_exact_volume_of_many_denominators) {
+  const std::string soup = path("soup.off").string(), dark = path("dark.qoff").string();
+  ASSERT_EQ(run({"generate", "soup", "--size", "60", "--out", soup}).code, done);
+  const Outcome made = run({"shadow", soup, "--light", "3,4,9", "--volume", dark});
+  EXPECT_EQ(made.code, done) << made;
+  EXPECT_NE(made.out.find("more than 8192 bits"), std::string::npos) << made;
+  EXPECT_NE(made.out.find("--coordinates double"), std::string::npos) << made;
+  EXPECT_EQ(run({"boolean", "union", dark}).code, bad_input);
+  EXPECT_EQ(run({"boolean", "union", dark, "--coordinates", "double"}).code, done);
+  // Rounded, or of few denominators: all commands read it.
+  const Outcome rounded = run({"shadow", soup, "--light", "3,4,9", "--volume", path("dark.off").string()});
+  EXPECT_EQ(rounded.out.find("8192"), std::string::npos) << rounded;
+  ASSERT_EQ(run({"generate", "soup", "--size", "2", "--out", soup}).code, done);
+  const Outcome small = run({"shadow", soup, "--light", "3,4,9", "--volume", dark});
+  EXPECT_EQ(small.out.find("8192"), std::string::npos) << small;
+}
+
 }  // namespace program
