@@ -107,14 +107,6 @@ bool is_inside_out(const Polygon_soup& solid) {
   return !(sum > lost) && volume(solid) < 0;
 }
 
-/// Whether a .qoff of a surface can be read by all commands.
-bool has_short_denominator(const Polygon_soup& soup) {
-  Common_denominator common;  // as its reader asks
-  for (std::size_t k = 0; k < soup.coordinates.size(); ++k)
-    if (!common.include(soup.coordinates[k].get_den())) return false;
-  return true;
-}
-
 /// What the user may not know of the solids: what was set aside or cut into triangles, and what is inside out.
 void solid_rows(const std::vector<Polygon_soup>& solids, const Operands& operands, bool by_sign) {
   constexpr std::size_t shown = 6;
@@ -357,7 +349,7 @@ void print(const Boolean_arguments& a, const std::vector<Polygon_soup>& solids, 
   row("result", fmt::format("{} faces, {} points; written as {} faces without holes", result.soup.face_count(),
                             result.soup.point_count(), written.face_count()));
   if (written.rounding) row("rounded", rounding_text(*written.rounding));
-  if (!a.out.empty() && !a.rounds() && !has_short_denominator(written.flat.soup))
+  if (!a.out.empty() && !a.rounds() && !is_read_by_all(written.flat.soup))
     row("exact", fmt::format("its points have a common denominator of more than {} bits: `verify --result` reads {}, "
                              "other commands with --coordinates double",
                              largest_common_denominator_bits, a.out));

@@ -123,12 +123,12 @@ TEST_F(Boolean, says_volumes_that_doubles_do_not_hold) {
 }
 
 TEST_F(Boolean, that_snapping_leaves_broken_has_an_exit_code) {
-  const std::string a = box("a.off", {16000000, 16000000, 16000000}, {16000002, 16000002, 16000002});
+  const std::string a = box("a.off", {8000000, 8000000, 8000000}, {8000002, 8000002, 8000002});
   std::string askew = "OFF\n8 6 0\n";  // turned about z, at less than the step of floats from there
   for (int k = 0; k < 8; ++k) {
     const int x = (k & 4) / 2, y = k & 2, z = 2 * (k & 1);
     const auto at = [](int numerator, int denominator) {
-      return std::to_string(16000000 * std::int64_t{denominator} + numerator) + '/' + std::to_string(denominator);
+      return std::to_string(8000000 * std::int64_t{denominator} + numerator) + '/' + std::to_string(denominator);
     };
     askew += at(9 * x - 12 * y + 20, 15) + ' ' + at(28 * x + 21 * y + 5, 35) + ' ' + at(3 * z + 1, 5) + '\n';
   }
