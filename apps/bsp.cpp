@@ -14,7 +14,7 @@ struct Bsp_arguments {
 
 static Exit run(const Bsp_arguments& arguments) {
   const Common& common = arguments.common;
-  Scene scene(common.read());
+  Scene scene = scene_of(common.read());
   Progress progress("building");
   Task task;
   task.bsp.candidates = arguments.candidates;

@@ -205,7 +205,7 @@ void print_frames(const Followed& followed, bool check) {
 }
 
 Exit run_decisions(const Cutset_arguments& arguments) {
-  const Scene scene(arguments.common.read());
+  const Scene scene = scene_of(arguments.common.read());
   const Stopwatch watch;
   const Decisions decisions = decide(arguments.decisions, Face_graph(scene));
   const double seconds = watch.seconds();
@@ -325,7 +325,7 @@ Exit run(const Cutset_arguments& arguments) {
   const Common& common = arguments.common;
   check_usage(arguments);
   if (arguments.decisions.wanted) return run_decisions(arguments);
-  const Scene scene(common.read());
+  const Scene scene = scene_of(common.read());
   const Path path = path_of(arguments.path, scene);
   const Stopwatch watch;
   const Face_graph graph(scene);

@@ -51,11 +51,13 @@ Exit run(const Generate_arguments& arguments) {
   parameters.scale = parse_scale(arguments.scale);
   generate::Posed_scene scene;
   try {
+    const Waiting waiting("making the scene");
     scene = generate::family(arguments.family).make(parameters);
   } catch (const std::invalid_argument& error) {
     throw Usage_error(error.what());
   }
-  write_scene(scene.soup, arguments.out);
+  Progress progress("writing");
+  write_scene(scene.soup, arguments.out, std::ref(progress));
   if (!arguments.query.empty())
     write_file(arguments.query, to_text(harness::query_json(scene, arguments.seed), 1) + "\n");
   return Exit::done;

@@ -117,7 +117,7 @@ static Exit run(const Common& common) {
   const double reading = watch.seconds();
   Progress progress("looking at fronts");
   const auto in_time = common.within_budget(progress);
-  const Scene scene(soup);
+  const Scene scene = scene_of(soup);
   const double preparing = watch.seconds() - reading;
   in_time(0, 1);
   const Closure closing = closure(scene);

@@ -325,7 +325,7 @@ static void print(const Order_arguments& arguments, const Scene& scene, const Ex
 static Exit run(const Order_arguments& arguments) {
   const Common& common = arguments.common;
   check_usage(arguments);
-  Scene scene(common.read());
+  Scene scene = scene_of(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = arguments.svg.empty() ? View{eye} : arguments.view.view(eye, scene);
   const std::optional<std::array<Integer, 4>> near =

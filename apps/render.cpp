@@ -128,7 +128,7 @@ static Exit run(const Render_arguments& arguments) {
     throw Usage_error("--samples is for --method rays; exact shows means without samples");
   if (arguments.bits != Render_arguments{}.bits && arguments.method != "depth" && arguments.method != "weighted")
     throw Usage_error("--bits is for --method depth and weighted");
-  Scene scene(common.read());
+  Scene scene = scene_of(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   Progress progress("drawing");
   Image_options options;

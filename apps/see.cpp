@@ -378,7 +378,7 @@ void print(const See_arguments& arguments, const Scene& scene, const Exact_point
 Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   check_usage(arguments);
-  const Scene scene(common.read());
+  const Scene scene = scene_of(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const bool has_view = !arguments.svg.empty() || arguments.frustum;
   const View view = has_view ? arguments.view.view(eye, scene) : View{eye};

@@ -148,7 +148,7 @@ static Exit run(const Trace_arguments& arguments) {
   if (arguments.method == "embree" && (arguments.all || arguments.closed))
     throw Usage_error("--method embree traces first hits at t > 0: leave out --all and --closed");
   const std::vector<Exact_ray> rays = read_rays(arguments.rays);
-  const Scene scene(common.read());
+  const Scene scene = scene_of(common.read());
   const Ray_start start = arguments.closed ? Ray_start::closed : Ray_start::open;
   Traced traced = arguments.method == "tree"     ? by_tree(scene, rays, arguments, start)
                   : arguments.method == "embree" ? by_embree(scene, rays, arguments)

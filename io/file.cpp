@@ -40,7 +40,7 @@ fs::file_status status_of_input(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) fail(path, "no such file, or it is out of reach; check the path");
   if (fs::is_directory(status)) fail(path, "is a directory; name a file in it");
-  if (!fs::is_regular_file(status) && !fs::is_fifo(status))
+  if (!fs::is_regular_file(status) && !fs::is_fifo(status) && fs::canonical(path, error) != "/dev/null")
     fail(path, "is not a file that has an end; name a regular file");
   return status;
 }

@@ -97,7 +97,7 @@ struct Order_trial : Trial {
   Scene scene;
   Task task;
 
-  Order_trial(const Compare_arguments& all, const Polygon_soup& soup) : arguments(all), scene(soup) {
+  Order_trial(const Compare_arguments& all, const Polygon_soup& soup) : arguments(all), scene(scene_of(soup)) {
     const Common& common = arguments.common;
     task.bsp.seed = common.seed;
     task.bsp.threads = common.threads == 0 ? 1 : common.threads;

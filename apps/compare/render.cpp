@@ -227,7 +227,7 @@ struct Image_trial : Trial {
 
   Image_trial(const Compare_arguments& all, const Polygon_soup& soup)
       : arguments(all),
-        scene(soup),
+        scene(scene_of(soup)),
         eye(eye_of(arguments.eye, scene)),
         pixels(pixels_of(arguments.view, eye, scene)),
         view(scene, eye),

@@ -111,7 +111,7 @@ struct See_trial : Trial {
 
   See_trial(const Compare_arguments& all, const Polygon_soup& soup)
       : arguments(all),
-        scene(soup),
+        scene(scene_of(soup)),
         eye(eye_of(arguments.eye, scene)),
         boxes(scene),
         view(scene, eye),

@@ -135,7 +135,7 @@ struct Ray_trial : Trial {
   std::size_t hit = 0, tied = 0;
 
   Ray_trial(const Compare_arguments& arguments, const Polygon_soup& soup)
-      : scene(soup), asked(rays_of(arguments, soup)) {
+      : scene(scene_of(soup)), asked(rays_of(arguments, soup)) {
     // 1. The truth by boxes; the tree is asked for it again, as a contestant.
     {
       const Ray_tracer tracer(scene);

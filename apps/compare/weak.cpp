@@ -84,7 +84,7 @@ struct Weak_trial : Trial {
 
   Weak_trial(const Compare_arguments& all, const Polygon_soup& soup)
       : arguments(all),
-        scene(soup),
+        scene(scene_of(soup)),
         occluders(scene),
         sources(sources_of(arguments.sources, arguments.common, soup, occluders)),
         prepare_seconds(watch.seconds()),

@@ -297,7 +297,7 @@ Exit run(const Graph_arguments& arguments) {
   const Viewpoints asked = viewpoints_of(arguments);
   const std::vector<View> views = arguments.pixels.size.empty() ? std::vector<View>{} : read_views(arguments.pixels);
   check_pictures(arguments, views.size());
-  const Scene scene(common.read());
+  const Scene scene = scene_of(common.read());
   const Report in_time = common.within_budget();
   const Exact_traits traits(scene);
   const Faces faces(traits);

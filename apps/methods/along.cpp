@@ -119,7 +119,7 @@ std::string timeline(const Visible_along& found) {
 
 Exit run_along(const Common& common, const Along_arguments& arguments) {
   const std::array<Exact_point, 2> path = path_of(arguments.path);
-  const Scene scene(common.read());
+  const Scene scene = scene_of(common.read());
   Stopwatch watch;
   const Occluders occluders(scene);
   const double prepare_seconds = watch.seconds();

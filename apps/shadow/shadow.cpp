@@ -205,7 +205,7 @@ Exit run(const Shadow_arguments& arguments) {
   const Common& common = arguments.common;
   const std::vector<Placed_light> lights = lights_of(arguments);
   check_usage(arguments, lights);
-  const Scene scene(common.read());
+  const Scene scene = scene_of(common.read());
   const Stopwatch watch;
   const Piece_boxes boxes(scene);
   const std::vector<Shadows> all = shadows_of(arguments, scene, boxes, lights);

@@ -38,6 +38,7 @@ void Scene_format::add_to(Command of) {
 Polygon_soup Scene_format::read(const std::string& file, const Read_options& options) const {
   if (!name.empty() && !command->reads_standard_input())
     throw Usage_error("--format is of standard input, and the endings of files say theirs: leave it out");
+  const Waiting waiting("reading the scene");
   if (file != "-") return read_scene(file, options);
   const std::string bytes = read_input(file), called = input_path(file).string();
   std::optional<Format> format = format_of_content({called, bytes});
@@ -164,6 +165,31 @@ void Progress::operator()(std::size_t done, std::size_t all) {
                            std::string(static_cast<std::size_t>(percent) * 40 / 100, '#'), percent,
                            time_left(seconds, done, all))
             << std::flush;
+}
+
+Waiting::Waiting(std::string what) {
+  if (isatty(2) != 0 && !is_quiet()) line_ = std::thread([this, what = std::move(what)] { show(what); });
+}
+Waiting::~Waiting() {
+  if (!line_.joinable()) return;
+  {
+    const std::scoped_lock lock(mutex_);
+    has_ended_ = true;
+  }
+  ended_.notify_one();
+  line_.join();
+}
+void Waiting::show(const std::string& what) {
+  std::unique_lock lock(mutex_);
+  int seconds = 0;
+  while (!ended_.wait_for(lock, std::chrono::seconds(1), [this] { return has_ended_; }))
+    std::cerr << fmt::format("\r{}, {} s\033[K", what, ++seconds) << std::flush;
+  if (seconds > 0) std::cerr << "\r\033[K" << std::flush;
+}
+
+Scene scene_of(const Polygon_soup& soup) {
+  const Waiting waiting("preparing the scene");
+  return Scene(soup);
 }
 
 Json point_json(const Exact_point& p) { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; }

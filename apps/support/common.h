@@ -14,7 +14,10 @@
 #include <nlohmann/json.hpp>
 
 #include <atomic>
+#include <condition_variable>
 #include <functional>
+#include <mutex>
+#include <thread>
 
 namespace sightline::app {
 
@@ -79,6 +82,26 @@ class Progress {
   Stopwatch watch_;
   std::atomic<int> shown_{-1};
 };
+
+/// A line on standard error, if that is a terminal, of how many seconds work goes on that does not tell how far it is:
+/// from its second second on, until this ends.
+class Waiting {
+ public:
+  explicit Waiting(std::string what);
+  ~Waiting();
+  Waiting(const Waiting&) = delete;
+
+ private:
+  void show(const std::string& what);
+
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool has_ended_ = false;
+  std::thread line_;
+};
+
+/// The scene of a soup, which is waited for.
+Scene scene_of(const Polygon_soup& soup);
 
 /// So many seconds from now, and a bar that shows how many of them are over.
 class Countdown {

@@ -185,7 +185,7 @@ Exit run_partition(const Partition_arguments& arguments, const Common& common, c
                    const std::string& svg) {
   check_usage(of_sources);
   const Polygon_soup soup = common.read();
-  const Scene scene(soup);
+  const Scene scene = scene_of(soup);
   check_faces(arguments.faces, scene);
 
   // 1. The faces, divided, and what rays make of the first of them.

@@ -181,7 +181,7 @@ Exit run_weak(const Weak_arguments& arguments) {
   if (arguments.partition.asked_for() || !arguments.along.empty()) return run_other_question(arguments);
   check_usage(arguments);
   const Polygon_soup soup = common.read();
-  const Scene scene(soup);
+  const Scene scene = scene_of(soup);
 
   // 1. What is visible.
   Stopwatch watch;

@@ -39,8 +39,8 @@ inline py::array_t<double> doubles(const std::vector<double>& values) {
   return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
 }
 
-/// Corners of polygons as (n, 3) doubles, each the nearest.
-py::array_t<double> rounded(const std::vector<const std::vector<Exact_point>*>& polygons);
+/// Points as (n, 3) doubles, each the nearest.
+py::array_t<double> rounded(const std::vector<Exact_point>& points);
 /// All points of a soup as (n, 3): doubles, each the nearest, or objects: Fractions.
 py::array points_of(const Polygon_soup& soup, bool exact);
 /// Its faces: corners one loop after the other, where loops begin, and where faces begin among loops.

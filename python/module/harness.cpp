@@ -89,16 +89,15 @@ py::object looker_of(const judge::Query& query, bool exact) {
   if (query.question == Question::trace) {
     std::vector<Exact_point> ends;
     for (const Exact_ray& ray : query.rays) ends.insert(ends.end(), {ray.origin, ray.direction});
-    if (!exact) return rounded({&ends}).attr("reshape")(-1, 2, 3);
+    if (!exact) return rounded(ends).attr("reshape")(-1, 2, 3);
     py::list rays;
     for (const Exact_ray& ray : query.rays) rays.append(fractions({ray.origin, ray.direction}));
     return rays;
   }
   const bool is_weak = query.question == Question::weak;
   if (exact) return is_weak ? py::object(fractions(query.source)) : py::object(python::fractions(query.eye));
-  if (is_weak) return rounded({&query.source});
-  const std::vector<Exact_point> eye{query.eye};
-  return rounded({&eye}).attr("reshape")(3);
+  if (is_weak) return rounded(query.source);
+  return rounded({query.eye}).attr("reshape")(3);
 }
 
 // ---- Families

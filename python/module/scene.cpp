@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <span>
+#include <utility>
 
 namespace sightline::python {
 
@@ -194,47 +196,80 @@ py::array_t<double> measured(const Parts& parts, Measure measure) {
   }));
 }
 
-}  // namespace
-
-py::array_t<double> rounded(const std::vector<const std::vector<Exact_point>*>& polygons) {
-  std::size_t count = 0;
-  for (const auto* polygon : polygons) count += polygon->size();
-  py::array_t<double> array({static_cast<py::ssize_t>(count), py::ssize_t{3}});
-  double* to = array.mutable_data();
-  for (const auto* polygon : polygons)
-    for (const Exact_point& p : *polygon)
-      for (std::size_t k = 0; k < 3; ++k) *to++ = nearest_double(p[k]);
-  return array;
+/// An array of numbers that are already there, of one dimension or of points.
+template <class T>
+py::array_t<T> array_of(std::vector<T>&& values, bool of_points = false) {
+  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+  const auto count = static_cast<py::ssize_t>(kept->size());
+  T* const data = kept->data();
+  const py::capsule owner(kept.release(), [](void* all) { delete static_cast<std::vector<T>*>(all); });
+  if (of_points) return py::array_t<T>({count / 3, py::ssize_t{3}}, data, owner);
+  return py::array_t<T>(count, data, owner);
 }
 
-py::array points_of(const Polygon_soup& soup, bool exact) {
-  const std::array<py::ssize_t, 2> shape{static_cast<py::ssize_t>(soup.point_count()), 3};
-  if (exact) {
-    py::list all;
-    for (std::size_t i = 0; i < soup.coordinates.size(); ++i) all.append(fraction(soup.coordinates[i]));
-    const py::module_ numpy = py::module_::import("numpy");
-    py::object array = numpy.attr("empty")(py::make_tuple(shape[0], shape[1]), py::arg("dtype") = "object");
-    array.attr("flat") = all;
-    return array;
-  }
-  py::array_t<double> array(shape);
-  double* to = array.mutable_data();
-  for (std::size_t i = 0; i < soup.coordinates.size(); ++i) to[i] = nearest_double(soup.coordinates[i]);
-  return array;
+void append_rounded(std::vector<double>& to, const std::vector<Exact_point>& points) {
+  for (const Exact_point& p : points)
+    for (const Rational& coordinate : p) to.push_back(nearest_double(coordinate));
 }
 
-py::tuple faces_of(const Polygon_soup& soup) {
+/// Corners of all parts, and where those of each begin.
+py::tuple all_points_of(const Parts& parts) {
+  auto [points, offsets] = answer_to(plain_question(), [parts](const Asking&) {
+    std::pair<std::vector<double>, std::vector<std::int64_t>> all{{}, {0}};
+    for (std::size_t i = 0; i < parts.count; ++i) {
+      append_rounded(all.first, parts.at(i).corners);
+      all.second.push_back(static_cast<std::int64_t>(all.first.size() / 3));
+    }
+    return all;
+  });
+  return py::make_tuple(array_of(std::move(points), true), array_of(std::move(offsets)));
+}
+
+struct Flat_faces {
   std::vector<std::int64_t> corners, loops{0}, faces{0};
+};
+Flat_faces flat_faces_of(const Polygon_soup& soup) {
+  Flat_faces flat;
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
       const auto loop = soup.loop(f, k);
-      corners.insert(corners.end(), loop.begin(), loop.end());
-      loops.push_back(static_cast<std::int64_t>(corners.size()));
+      flat.corners.insert(flat.corners.end(), loop.begin(), loop.end());
+      flat.loops.push_back(static_cast<std::int64_t>(flat.corners.size()));
     }
-    faces.push_back(static_cast<std::int64_t>(loops.size() - 1));
+    flat.faces.push_back(static_cast<std::int64_t>(flat.loops.size() - 1));
   }
-  return py::make_tuple(ids(corners), ids(loops), ids(faces));
+  return flat;
 }
+py::tuple arrays_of(Flat_faces&& flat) {
+  return py::make_tuple(array_of(std::move(flat.corners)), array_of(std::move(flat.loops)),
+                        array_of(std::move(flat.faces)));
+}
+
+std::vector<double> rounded_points(const Polygon_soup& soup) {
+  std::vector<double> all(soup.coordinates.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = nearest_double(soup.coordinates[i]);
+  return all;
+}
+
+}  // namespace
+
+py::array_t<double> rounded(const std::vector<Exact_point>& points) {
+  std::vector<double> all;
+  append_rounded(all, points);
+  return array_of(std::move(all), true);
+}
+
+py::array points_of(const Polygon_soup& soup, bool exact) {
+  if (!exact) return array_of(rounded_points(soup), true);
+  py::list all;
+  for (std::size_t i = 0; i < soup.coordinates.size(); ++i) all.append(fraction(soup.coordinates[i]));
+  const py::module_ numpy = py::module_::import("numpy");
+  py::object array = numpy.attr("empty")(py::make_tuple(soup.point_count(), 3), py::arg("dtype") = "object");
+  array.attr("flat") = all;
+  return array;
+}
+
+py::tuple faces_of(const Polygon_soup& soup) { return arrays_of(flat_faces_of(soup)); }
 
 void add_scene(py::module_& module) {
   py::class_<Question>(module, "Question")
@@ -264,12 +299,14 @@ void add_scene(py::module_& module) {
           },
           py::arg("i"))
       .def(
-          "points", [](const Parts& parts, std::size_t i) { return rounded({&parts.at(i).corners}); }, py::arg("i"))
+          "points", [](const Parts& parts, std::size_t i) { return rounded(parts.at(i).corners); }, py::arg("i"))
       .def("faces",
            [](const Parts& parts) {
-             std::vector<Face_id> all(parts.count);
-             for (std::size_t i = 0; i < parts.count; ++i) all[i] = parts.at(i).face;
-             return ids(all);
+             return array_of(answer_to(plain_question(), [parts](const Asking&) {
+               std::vector<std::int64_t> all(parts.count);
+               for (std::size_t i = 0; i < parts.count; ++i) all[i] = parts.at(i).face;
+               return all;
+             }));
            })
       .def("fronts",
            [](const Parts& parts) {
@@ -278,16 +315,7 @@ void add_scene(py::module_& module) {
                all.mutable_data()[i] = !parts.from_front || parts.from_front(i);
              return all;
            })
-      .def("all_points",
-           [](const Parts& parts) {
-             std::vector<const std::vector<Exact_point>*> all;
-             std::vector<std::size_t> offsets{0};
-             for (std::size_t i = 0; i < parts.count; ++i) {
-               all.push_back(&parts.at(i).corners);
-               offsets.push_back(offsets.back() + all.back()->size());
-             }
-             return py::make_tuple(rounded(all), ids(offsets));
-           })
+      .def("all_points", &all_points_of)
       .def("areas", [](const Parts& parts) { return measured(parts, [](const Part& part) { return part.area(); }); })
       .def(
           "solid_angles",
@@ -308,8 +336,16 @@ void add_scene(py::module_& module) {
       .def("parts", &parts_of)
       .def("facts", &facts_of)
       .def(
-          "points", [](const Model& model, bool exact) { return points_of(model.soup(), exact); }, py::arg("exact"))
-      .def("faces", [](const Model& model) { return faces_of(model.soup()); });
+          "points",
+          [](const Model& model, bool exact) -> py::array {
+            if (exact) return points_of(model.soup(), true);
+            const auto rounding = [model](const Asking&) { return rounded_points(model.soup()); };
+            return array_of(answer_to(plain_question(), rounding), true);
+          },
+          py::arg("exact"))
+      .def("faces", [](const Model& model) {
+        return arrays_of(answer_to(plain_question(), [model](const Asking&) { return flat_faces_of(model.soup()); }));
+      });
 }
 
 }  // namespace sightline::python

@@ -296,6 +296,35 @@ def test_budget_progress_and_other_threads():
         scene.order((-3, -5, 5), budget=1e-6)
 
 
+def test_arrays_of_many_parts_are_made_while_other_threads_go_on():
+    n = 400
+    x, y = np.meshgrid(np.arange(n), np.arange(n))
+    V = np.stack([x, y, np.random.default_rng(1).integers(0, 50, x.shape)], -1).reshape(-1, 3).astype(float)
+    i = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
+    F = np.concatenate([np.stack([i, i + 1, i + n], 1), np.stack([i + 1, i + n + 1, i + n], 1)])
+    scene = sightline.Scene(V, F)
+    parts = scene.parts
+    stop, times = threading.Event(), []
+
+    def tick():
+        while not stop.wait(0.002):
+            times.append(time.perf_counter())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.perf_counter()
+    points, starts = parts.points()
+    faces = parts.faces
+    seconds = time.perf_counter() - start
+    stop.set()
+    thread.join()
+    assert sorted(map(tuple, points[:3])) == sorted(map(tuple, V[F[0]])) and len(points) == 3 * len(F)
+    assert (faces == np.arange(len(F))).all() and len(starts) == len(F) + 1
+    pauses = np.diff([start] + [t for t in times if start <= t <= start + seconds] + [start + seconds])
+    assert pauses.max() < 0.5 * seconds, f"nobody else had a turn for {pauses.max()} of {seconds} s"
+    assert (scene.points() == V).all() and (np.array(scene.faces()) == F).all()
+
+
 def test_ctrl_c_ends_what_has_no_progress_and_work_that_is_left_ends_before_the_process():
     script = """
 import atexit, os, signal, threading, time

@@ -90,6 +90,7 @@ TEST_F(Read_scene, what_is_no_file_is_an_error) {
   EXPECT_NE(message(folder_ / "none.obj").find("no such file"), std::string::npos);
   EXPECT_NE(message(folder_).find("is a directory"), std::string::npos);
   EXPECT_NE(message("/dev/zero").find("not a file that has an end"), std::string::npos);
+  EXPECT_EQ(message("/dev/null").find("not a file that has an end"), std::string::npos) << "it is empty";
 }
 
 TEST_F(Read_scene, a_file_that_may_not_be_read_is_an_error) {

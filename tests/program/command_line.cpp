@@ -268,4 +268,12 @@ TEST_F(Command_line, a_bar_says_how_long_it_may_take) {
   EXPECT_EQ(on_a_terminal({executable, "fuzz", "see", "--seconds", "1", "--quiet"}), "");
 }
 
+TEST_F(Command_line, a_line_says_how_long_a_scene_is_waited_for) {
+  const std::string slow = "(sleep 1.5; cat " + cube + ") | " + executable + " info -";
+  const std::string told = on_a_terminal({"sh", "-c", slow});
+  EXPECT_NE(told.find("\rreading the scene, 1 s\033[K"), std::string::npos) << told;
+  EXPECT_TRUE(told.ends_with("\r\033[K")) << told;
+  EXPECT_EQ(on_a_terminal({"sh", "-c", slow + " --quiet"}), "");
+}
+
 }  // namespace program
