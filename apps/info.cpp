@@ -115,8 +115,7 @@ static Exit run(const Common& common) {
   const Stopwatch watch;
   const Polygon_soup soup = common.read();
   const double reading = watch.seconds();
-  Progress progress("looking at fronts");
-  const auto in_time = common.within_budget(progress);
+  const Report in_time = common.within_budget();
   const Scene scene = scene_of(soup);
   const double preparing = watch.seconds() - reading;
   in_time(0, 1);
@@ -124,7 +123,11 @@ static Exit run(const Common& common) {
   in_time(0, 1);
   const Scene_counters& c = scene.counters();
   const double closed_after = watch.seconds();
-  const Fronts fronts = fronts_of(scene, common.seed, in_time);
+  Progress progress("looking at fronts");
+  const Fronts fronts = fronts_of(scene, common.seed, [&](std::size_t done, std::size_t all) {
+    in_time(done, all);
+    progress(done, all);
+  });
   const double sampling = watch.seconds() - closed_after;
   progress.clear();
   const Bit_budget& budget = scene.planes().budget();
