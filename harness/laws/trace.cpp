@@ -211,6 +211,34 @@ Check in_doubles() {
           }};
 }
 
+/// Rays whose origin, and often whose direction, doubles do not hold.
+Check from_beyond_doubles() {
+  return {"beyond", "the same hits by the loops of each face, of rays from beyond doubles",
+          [](const Posed_scene& posed, const Answer&, Random& random) {
+            const Scene scene(posed.soup);
+            const Ray_tracer tracer(scene);
+            Ray_counters counters;
+            for (const generate::Ray_kind& kind : generate::ray_kinds()) {
+              Exact_ray ray = kind.make(posed.soup, random);
+              const Rational distance = generate::power_of_two(static_cast<int>(random.between(900, 2200)));
+              const bool far_behind = random.chance(1, 8), short_steps = random.chance(1, 2);
+              const Rational step =
+                  short_steps ? generate::power_of_two(-static_cast<int>(random.between(600, 2200))) : 1;
+              for (std::size_t k = 0; k < 3; ++k) {
+                ray.origin[k] -= distance * ray.direction[k];
+                ray.direction[k] *= far_behind ? Rational(-step) : step;
+              }
+              const Ray_start start = starts[random.below(2)];
+              const std::vector<Face_hit> all = tracer.all(ray, start, counters),
+                                          its = hits_by_definition(posed.soup, scene, ray, start);
+              if (all != its || tracer.first(ray, start, counters) != only_first(its))
+                return Outcome::failed("ray " + text_of(ray) + ", " + std::string(kind.name) + ": " + text_of(all) +
+                                       " is met, the definition says " + text_of(its));
+            }
+            return Outcome{};
+          }};
+}
+
 /// What an eye sees is what a ray from it meets first.
 Check as_seen() {
   return {"see", "a ray from the eye to the middle of each part that is seen meets it there first",
@@ -298,6 +326,7 @@ Subject trace() {
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn"});
   subject.checks.push_back(by_front_door());  // last: others keep their random choices
   subject.checks.push_back(judged_rays_check());
+  subject.checks.push_back(from_beyond_doubles());
   return subject;
 }
 
