@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <queue>
+#include <unordered_map>
 #include <span>
 #include <utility>
 
@@ -380,13 +381,21 @@ class Wall_builder {
 
   std::vector<std::uint32_t> ids_of(const Wall_polygon& polygon) {
     std::vector<std::uint32_t> ids;
-    for (const Wall_polygon::Corner& corner : polygon.corners) {
-      const auto [place, fresh] =
-          ids_.try_emplace(traits_.position(corner.vertex), static_cast<std::uint32_t>(points.size()));
-      if (fresh) points.push_back(place->first);
-      ids.push_back(place->second);
-    }
+    for (const Wall_polygon::Corner& corner : polygon.corners) ids.push_back(id_of(corner.vertex));
     return ids;
+  }
+  /// A vertex that has had the same name before has the same place; one of another name may have.
+  std::uint32_t id_of(const Vertex& v) {
+    Name name{v.point, Vertex::no_plane, Vertex::no_plane};
+    if (!v.is_input()) {
+      std::copy(v.plane, v.plane + 3, name.begin());
+      std::sort(name.begin(), name.end());
+    }
+    const auto [known, is_new_name] = ids_by_name_[v.is_input() ? 0 : 1].try_emplace(name, 0);
+    if (!is_new_name) return known->second;
+    const auto [place, is_new] = ids_.try_emplace(traits_.position(v), static_cast<std::uint32_t>(points.size()));
+    if (is_new) points.push_back(place->first);
+    return known->second = place->second;
   }
 
   const Exact_traits& traits_;
@@ -396,6 +405,13 @@ class Wall_builder {
   Wall_cutter cutter_;
   Cell_id cells_ = 0;
   std::vector<int> times_ = times_given(traits_.scene());
+  using Name = std::array<std::uint32_t, 3>;  ///< an input point, or planes that meet
+  struct Name_hash {
+    std::size_t operator()(const Name& name) const {
+      return ((name[0] * 0x9e3779b97f4a7c15u + name[1]) * 0x9e3779b97f4a7c15u + name[2]) * 0x9e3779b97f4a7c15u >> 7;
+    }
+  };
+  std::array<std::unordered_map<Name, std::uint32_t, Name_hash>, 2> ids_by_name_;
   std::map<Exact_point, std::uint32_t> ids_;
 };
 
