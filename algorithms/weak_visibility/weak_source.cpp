@@ -4,10 +4,63 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/vectors.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 
 namespace sightline {
+
+namespace {
+
+/// Which way points of one plane turn, seen from the side that its normal points to. Doubles tell it but for points
+/// that are nearly in line.
+class Turns {
+ public:
+  /// Pre: the points are in a plane of this normal, which is not 0.
+  Turns(const std::vector<Exact_point>& points, const Exact_point& normal) {
+    std::size_t axis = 0;
+    while (sgn(normal[axis]) == 0) ++axis;
+    is_turned_ = sgn(normal[axis]) < 0;
+    const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+    for (const Exact_point& p : points) {
+      exact_.push_back({Rational(p[x] - points[0][x]), Rational(p[y] - points[0][y])});
+      near_.push_back({nearest_double(exact_.back()[0]), nearest_double(exact_.back()[1])});
+      for (const double c : near_.back()) size_ = std::max(size_, std::fabs(c));
+    }
+  }
+  /// 1 to the left, 0 straight on or back, -1 to the right.
+  int of(std::size_t a, std::size_t b, std::size_t c) const {
+    const int sign = seen_along_the_axis(a, b, c);
+    return is_turned_ ? -sign : sign;
+  }
+
+ private:
+  template <class Number>
+  using Flat_point = std::array<Number, 2>;
+  template <class Number>
+  static Number area(const Flat_point<Number>& a, const Flat_point<Number>& b, const Flat_point<Number>& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  }
+  int seen_along_the_axis(std::size_t a, std::size_t b, std::size_t c) const {
+    // Coordinates are within 2^-53 of the largest, so are four differences of at most twice its size: in all less than
+    // 48 * 2^-53 of its square.
+    if (size_ > 0x1p-400 && size_ < 0x1p400) {
+      const double doubled = area(near_[a], near_[b], near_[c]), error = 0x1p-47 * size_ * size_;
+      if (doubled > error) return 1;
+      if (doubled < -error) return -1;
+    }
+    return sgn(area(exact_[a], exact_[b], exact_[c]));
+  }
+
+  std::vector<Flat_point<Rational>> exact_;
+  std::vector<Flat_point<double>> near_;
+  double size_ = 0;
+  bool is_turned_ = false;
+};
+
+}  // namespace
 
 std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points) {
   std::vector<Exact_point> corners;
@@ -32,21 +85,23 @@ std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points) 
     if (sgn(dot(normal, minus(p, corners[0]))) != 0)
       throw std::invalid_argument("a source is not planar; cut it into triangles and give each of them");
   const char* const not_convex = "a source is not convex; cut it into convex polygons and give each of them";
-  std::vector<Exact_point> strict;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Exact_point &before = corners[(i + corners.size() - 1) % corners.size()],
-                      &after = corners[(i + 1) % corners.size()];
-    const Exact_point in = minus(corners[i], before), out = minus(after, corners[i]);
-    const int turn = sgn(dot(normal, cross(in, out)));
-    if (turn < 0 || (turn == 0 && sgn(dot(in, out)) < 0)) throw std::invalid_argument(not_convex);
-    if (turn > 0) strict.push_back(corners[i]);
+  const Turns turns(corners, normal);
+  const std::size_t count = corners.size();
+  std::vector<std::size_t> strict;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
+    const int turn = turns.of(before, i, after);
+    if (turn < 0 || (turn == 0 && sgn(dot(minus(corners[i], corners[before]), minus(corners[after], corners[i]))) < 0))
+      throw std::invalid_argument(not_convex);
+    if (turn > 0) strict.push_back(i);
   }
   for (std::size_t i = 0; i < strict.size();
        ++i)  // a star turns left everywhere too, but has corners outside its edges
-    for (const Exact_point& p : strict)
-      if (sgn(dot(normal, cross(minus(strict[(i + 1) % strict.size()], strict[i]), minus(p, strict[i])))) < 0)
-        throw std::invalid_argument(not_convex);
-  return strict;
+    for (const std::size_t p : strict)
+      if (turns.of(strict[i], strict[(i + 1) % strict.size()], p) < 0) throw std::invalid_argument(not_convex);
+  std::vector<Exact_point> kept;
+  for (const std::size_t i : strict) kept.push_back(corners[i]);
+  return kept;
 }
 
 Weak_source weak_source(const Occluders& occluders, const std::vector<Exact_point>& points) {
