@@ -34,18 +34,41 @@ Rational six_volumes(const Polygon_soup& polyhedron) {
   return sum;
 }
 
-/// Adds a polyhedron with points of its own, which its faces share, all faces either way round.
-void add_volume(Polygon_soup& volumes, const Polygon_soup& polyhedron, bool is_turned) {
+/// A convex polygon made smaller about its middle.
+Points shrunken(const Points& polygon) {
+  Exact_point middle{0, 0, 0};
+  for (const Exact_point& p : polygon)
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += p[k] / Rational(static_cast<long>(polygon.size()));
+  Points inner = polygon;
+  for (Exact_point& p : inner)
+    for (std::size_t k = 0; k < 3; ++k) p[k] = (p[k] + 3 * middle[k]) / 4;
+  return inner;
+}
+
+/// Adds a polyhedron with points of its own, which its faces share, all faces either way round. One of them may have a
+/// hole, which another face fills.
+void add_volume(Polygon_soup& volumes, const Polygon_soup& polyhedron, bool is_turned, Random& random) {
   std::map<Exact_point, Point_id> ids;
-  for (Face_id f = 0; f < polyhedron.face_count(); ++f) {
+  const auto loop_of = [&](const Points& points) {
     std::vector<Point_id> loop;
-    for (const Exact_point& p : points_of_loop(polyhedron, f)) {
+    for (const Exact_point& p : points) {
       const auto [at, is_new] = ids.try_emplace(p, 0);
       if (is_new) at->second = volumes.add_point(p[0], p[1], p[2]);
       loop.push_back(at->second);
     }
     if (is_turned) std::reverse(loop.begin(), loop.end());
-    volumes.add_face(loop);
+    return loop;
+  };
+  const bool has_hole = random.chance(1, 2);
+  const Face_id with_hole = static_cast<Face_id>(random.below(polyhedron.face_count()));
+  for (Face_id f = 0; f < polyhedron.face_count(); ++f) {
+    const Points points = points_of_loop(polyhedron, f);
+    volumes.add_face(loop_of(points));
+    if (!has_hole || f != with_hole) continue;
+    const std::vector<Point_id> filling = loop_of(shrunken(points));
+    const std::vector<Point_id> hole(filling.rbegin(), filling.rend());
+    volumes.add_hole(hole);
+    volumes.add_face(filling);
   }
 }
 
@@ -60,7 +83,8 @@ Outcome cells_as_volumes(const Posed_scene& posed, Random& random) {
   for (Cell_id c = 0; c < other.cells().size() && given.size() < 12; ++c) {
     if (random.chance(1, 2)) continue;
     given.push_back(polyhedron(other, {c}));
-    add_volume(volumes, given.back(), random.chance(1, 3));
+    const bool is_turned = random.chance(1, 3);
+    add_volume(volumes, given.back(), is_turned, random);
   }
   const Volume_division division = convex_volumes(volumes);
   if (division.volumes != given.size()) return Outcome::failed("volumes are not as many as were given");
@@ -120,7 +144,8 @@ Outcome boxes_as_volumes(const Posed_scene& posed, Random& random) {
       if (place[k] > 0) own[0][k] = box[0][k] + place[k] * side;
       if (place[k] + 1 < counts[k]) own[1][k] = box[0][k] + (place[k] + 1) * side;
     }
-    add_volume(volumes, generate::soup_of(generate::box(own[0], own[1])), random.chance(1, 3));
+    const bool is_turned = random.chance(1, 3);
+    add_volume(volumes, generate::soup_of(generate::box(own[0], own[1])), is_turned, random);
   }
   division.tree = convex_volumes(volumes).tree;
   const Level_cells rooms(posed.soup, division);

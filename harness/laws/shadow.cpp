@@ -8,6 +8,7 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -107,9 +108,29 @@ std::optional<int> winding_at(const Polygon_soup& surface, const Scene& scene, c
   return std::nullopt;
 }
 
+/// The least box of the scene's pieces, larger on all sides by a quarter of its longest side. Pre: there are some.
+std::array<Exact_point, 2> box_about(const Scene& scene) {
+  std::array<std::vector<Rational>, 3> all;
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
+    for (const Exact_point& p : corners_of(scene, piece))
+      for (std::size_t k = 0; k < 3; ++k) all[k].push_back(p[k]);
+  std::array<Exact_point, 2> box;
+  std::vector<Rational> sides;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::sort(all[k].begin(), all[k].end());
+    sides.push_back(all[k].back() - all[k].front());
+  }
+  const Rational margin = *std::max_element(sides.begin(), sides.end()) / 4;
+  for (std::size_t k = 0; k < 3; ++k) {
+    box[0][k] = all[k].front() - margin;
+    box[1][k] = all[k].back() + margin;
+  }
+  return box;
+}
+
 /// What the volume says of random points of its box, against rays to the light.
 Check by_volume() {
-  return {"volume", "a point is in the shadow volume iff a face is between it and the light",
+  return {"volume", "a point of the box about the scene is in the shadow volume iff a face is between it and the light",
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_faces = 12;
             constexpr int most_bits = 100;
@@ -224,6 +245,8 @@ std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scen
 std::string flaw_of(const Shadow_volume& volume, const Polygon_soup& soup, const Scene& scene, const Exact_point& light,
                     bool is_sun, std::size_t points, generate::Random& random) {
   using namespace shadow_subject;
+  if (scene.pieces().empty()) return volume.soup.face_count() == 0 ? "" : "a scene of nothing has a shadow volume";
+  if (volume.box != box_about(scene)) return "the box is not the scene's, larger by a quarter of its longest side";
   const Polygon_soup flat = without_holes(volume.soup).soup;
   const Scene surface(flat);
   for (std::size_t k = 0; k < points; ++k) {

@@ -22,8 +22,9 @@ Subject shadow();
 std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scene& scene, const Exact_point& light,
                     bool is_sun);
 
-/// What is wrong with a shadow volume: at random points of its box, which it winds once round where a face is met on
-/// the way to the light, and else not at all; the surface's own rays count that. Empty: nothing. Pre: faces are planar.
+/// What is wrong with a shadow volume: of its box, and at random points of it, which it winds once round where a face
+/// is met on the way to the light, and else not at all; the surface's own rays count that. Empty: nothing. Pre: faces
+/// are planar.
 std::string flaw_of(const Shadow_volume& volume, const Polygon_soup& soup, const Scene& scene, const Exact_point& light,
                     bool is_sun, std::size_t points, generate::Random& random);
 

@@ -137,4 +137,30 @@ TEST(Mutants, are_chosen_by_their_ids) {
   EXPECT_EQ(two, (std::vector{all[2], all[7]}));
 }
 
+// By clang a unit calls its own functions, whatever stands before the library: what calls a mutant is compiled with it.
+TEST(Mutants, are_compiled_with_the_rest_of_their_unit) {
+  if (!has_python()) GTEST_SKIP() << "no python3 here";
+  const Folder folder(made_up);
+  const std::string path = folder.path.string();
+  for (const int k : {0, 1}) {
+    std::ofstream unit(folder.path / ("unity_" + std::to_string(k) + "_cxx.cxx"));
+    for (const std::string file : {k == 0 ? "kernel/row.cpp" : "io/text.cpp", k == 0 ? "io/rows.cpp" : "io/words.cpp"})
+      unit << "#include \"" << path << "/" << file << "\"\n";
+  }
+  const std::string script = folder.path / "script.py";
+  std::ofstream(script)
+      << "import importlib.machinery, importlib.util, sys\n"
+         "sys.dont_write_bytecode = True\n"
+         "loader = importlib.machinery.SourceFileLoader('mutate', '" SIGHTLINE_SOURCE_DIR
+         "/tests/faults/mutate')\n"
+         "mutate = importlib.util.module_from_spec(importlib.util.spec_from_loader('mutate', loader))\n"
+         "loader.exec_module(mutate)\n"
+         "root = '"
+      << path
+      << "'\n"
+         "units = [{'directory': root, 'file': f'unity_{k}_cxx.cxx'} for k in (0, 1)]\n"
+         "sys.exit(mutate.together_with({'kernel/row.cpp': ''}, units, root) != {'io/rows.cpp'})\n";
+  EXPECT_EQ(std::system(("python3 " + script).c_str()), 0);
+}
+
 }  // namespace

@@ -96,6 +96,16 @@ inline Points touching(const Exact_point& p, const Points* in_plane_of, Random& 
   }
 }
 
+/// A face in a plane with the segment from p to p + u: on it, before it, behind it or on one side of it.
+inline Points beside(const Exact_point& p, const Exact_point& u, Random& random) {
+  Exact_point v{0, 0, 0};
+  while (is_zero(cross(u, v))) v = generate::lattice(random, 2);
+  const Rational s = Rational(static_cast<long>(random.between(-3, 5))) / 2;
+  const Rational t = Rational(static_cast<long>(random.between(-3, 3))) / 2;
+  const Points plane{p, generate::along(p, 1, u), generate::along(p, 1, v)};
+  return touching(generate::along(generate::along(p, s, u), t, v), &plane, random);
+}
+
 inline void try_sightline(Random& random) {
   Weak_scene scene{leaning(0, 2, random), {leaning(4, 2, random)}};
   const Exact_point p = random.chance(1, 8) ? scene.source[0] : any_inside(scene.source, random),
@@ -106,10 +116,11 @@ inline void try_sightline(Random& random) {
   }
   for (std::uint64_t k = random.below(3); k > 0; --k) {
     Points other;
-    switch (random.below(4)) {
+    switch (random.below(5)) {
       case 0: other = touching(p, random.chance(1, 2) ? &scene.source : nullptr, random); break;
       case 1: other = touching(q, random.chance(1, 2) ? &scene.faces[0] : nullptr, random); break;
       case 2: other = touching(generate::along(p, Rational(1, 2), minus(q, p)), nullptr, random); break;
+      case 3: other = beside(p, minus(q, p), random); break;
       default: other = leaning(2, 2, random);
     }
     scene.faces.push_back(generate::either_way(other, random));

@@ -764,6 +764,17 @@ TEST(Rays, that_are_answered_wrongly_are_explained_and_guessed_about) {
                        read_answer("0\n", Question::trace, 1, 1), {}));
 }
 
+TEST(Numbers, of_json_are_doubles_whole_or_quotients) {
+  EXPECT_EQ(judge::number_from_json("1/3", "at"), Rational(1, 3));
+  EXPECT_EQ(judge::number_from_json(0.5, "at"), Rational(1, 2));
+  EXPECT_EQ(judge::number_from_json(-3, "at"), Rational(-3));
+  EXPECT_EQ(judge::point_from_json({1, "-2/7", 0.25}, "at"), (Exact_point{1, Rational(-2, 7), Rational(1, 4)}));
+  EXPECT_THROW(judge::number_from_json("1/0", "at"), std::invalid_argument);
+  EXPECT_THROW(judge::number_from_json(true, "at"), std::invalid_argument);
+  EXPECT_THROW(judge::point_from_json({1, 2}, "at"), std::invalid_argument);
+  EXPECT_THROW(judge::point_from_json({{"x", 1}, {"y", 2}, {"z", 3}}, "at"), std::invalid_argument);
+}
+
 TEST(Example, of_the_page_grades_a_text) {
   std::ostringstream out;
   grade_text(tower({0, 1, 2}), question(Question::see, {0, 0, 5}), "0\n", out);

@@ -51,6 +51,12 @@ TEST(Level_cells, are_within_even_boxes) {
   EXPECT_EQ(leaf_at({beside(1) + Rational(1, 1000000), 0, 0}) % 3, 1u);
   EXPECT_EQ(even_boxes(soup, {1, 1, 1}).root, -1);
   EXPECT_EQ(even_boxes(soup, {3, 2, 4}).nodes.size(), 23u);
+  // A flat scene is divided within its plane, and not across it.
+  Polygon_soup flat;
+  for (const auto& [x, y] : {std::pair(0, 0), {2, 0}, {0, 2}}) flat.add_point(x, y, 5);
+  flat.add_face({0, 1, 2});
+  EXPECT_EQ(even_boxes(flat, {2, 2, 1}).nodes.size(), 3u);
+  EXPECT_THROW(even_boxes(flat, {2, 2, 2}), std::invalid_argument);
 }
 
 TEST(Level_cells, of_a_level_are_rooms_and_a_hull) {

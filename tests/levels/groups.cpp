@@ -73,6 +73,29 @@ TEST(Volumes, are_numbered_by_first_faces) {
   EXPECT_EQ(convex_volumes(Polygon_soup{}).tree.root, -1);
 }
 
+/// A side of a box with a hole, which another face fills.
+TEST(Volumes, may_have_faces_with_holes) {
+  Polygon_soup soup = boxes_with_own_points({{{{0, 0, 0}, {4, 4, 4}}}});
+  Polygon_soup with_hole;
+  for (Point_id p = 0; p < soup.point_count(); ++p) {
+    const Exact_point point = soup.point(p);
+    with_hole.add_point(point[0], point[1], point[2]);
+  }
+  const Point_id first = with_hole.add_point(1, 1, 0);
+  with_hole.add_point(1, 3, 0);
+  with_hole.add_point(3, 3, 0);
+  with_hole.add_point(3, 1, 0);
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const auto loop = soup.loop(f);
+    with_hole.add_face(loop);
+    if (!std::all_of(loop.begin(), loop.end(), [&](Point_id p) { return soup.point(p)[2] == 0; })) continue;
+    with_hole.add_hole({first + 3, first + 2, first + 1, first});
+    with_hole.add_face({first, first + 1, first + 2, first + 3});
+  }
+  ASSERT_EQ(with_hole.face_count(), 7u);
+  EXPECT_EQ(refusal_of(with_hole), "");
+}
+
 TEST(Volumes, that_overlap_are_told_by_a_face_of_each) {
   const auto box = [](long x, long y, long z, long side) {
     return std::array<Exact_point, 2>{Exact_point{x, y, z}, Exact_point{x + side, y + side, z + side}};

@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/pvs.h>
+#include <sightline/algorithms/levels/ways.h>
 
 #include <algorithm>
 
@@ -149,6 +150,23 @@ TEST(Pvs, out_of_time_is_undecided) {
     for (const Face_id face : whole.visible[c])
       EXPECT_TRUE(std::binary_search(pvs.visible[c].begin(), pvs.visible[c].end(), face) ||
                   std::binary_search(pvs.undecided[c].begin(), pvs.undecided[c].end(), face));
+}
+
+/// Two squares that see each other past a wall, and no time to find that.
+TEST(Pvs, what_events_have_no_time_for_is_not_hidden) {
+  Polygon_soup soup;
+  for (const long z : {0, 2, 1})
+    for (const auto& [x, y] : {std::pair(0, 0), {2, 0}, {2, 2}, {0, 2}}) soup.add_point(z == 1 ? 2 * x - 2 : x, y, z);
+  soup.add_face({0, 1, 2, 3});
+  soup.add_face({7, 6, 5, 4});
+  soup.add_face({8, 9, 10, 11});
+  const Scene scene(soup);
+  const Occluders occluders(scene);
+  const Weak_source source = weak_source(occluders, {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
+  Pvs_options options;
+  EXPECT_NE(levels_detail::visible_at_any_cost(occluders, source, 1, options).status, Weak_status::undecided);
+  options.search.out_of_time = [] { return true; };
+  EXPECT_EQ(levels_detail::visible_at_any_cost(occluders, source, 1, options).status, Weak_status::undecided);
 }
 
 }  // namespace

@@ -210,6 +210,8 @@ TEST(Checker, quotients_and_points_above_others_are_near_what_they_should_be) {
   EXPECT_GT(told, test_scenes::least(5000));
   EXPECT_FALSE(std::isfinite((Near{1, 0} / Near{0, 0}).error));
   EXPECT_FALSE(std::isfinite((Near{1, 0} / Near{1, 1}).error));
+  EXPECT_FALSE(std::isfinite((Near{1, 0} / Near{1, 0.75}).error)) << "no less than half of it is sure";
+  EXPECT_FALSE(std::isfinite((Near{0x1p-100, 0} / Near{0x1p-501, 0}).error)) << "what underflow loses counts";
 }
 
 TEST(Checker, edges_that_go_on_beyond_a_straight_corner_are_more_than_a_whole_edge) {

@@ -69,6 +69,13 @@ TEST(Space_ids, vertices_have_one_id_iff_they_have_one_place) {
         check(predicates.meet(p, q, r));
         ++checked;
       }
+  // Planes across an axis, as trees of the scene have them.
+  for (Point_id p = 0; p < 9; ++p)
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t across = Plane::across(axis, p).id();
+      for (std::uint32_t q = 0; q + 1 < planes; ++q)
+        if (predicates.orientation_exact(q, q + 1, across) != 0) check(predicates.meet(q, q + 1, across));
+    }
   EXPECT_EQ(ids.size(), known.size());
   EXPECT_GT(checked, known.size());  // places have several names
 }
