@@ -2,6 +2,8 @@
 
 #include "page_sources.h"
 
+#include <sightline/harness/report/page.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -262,22 +264,14 @@ std::string page_around(std::string_view data) {
 
 }  // namespace
 
-std::string in_page(const Json& data) {
-  std::string text;
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
-    if (c == '<') text += "\\u003c";
-    else text += c;
-  return text;
-}
-
 std::string scenes_within() {
   return fmt::format(
       "<style>\n{}</style>\n<script type=\"application/json\" id=\"viewer\">{}</script>\n<script>\n'use "
       "strict';\n(function "
       "() {{\n{}}}());\n</script>\n",
-      turn_style, in_page(page_around(data_mark)), turn_script);
+      turn_style, report::in_element(page_around(data_mark)), turn_script);
 }
 
-void Page::write(const std::string& file) { write_file(file, page_around(in_page(data()))); }
+void Page::write(const std::string& file) { write_file(file, page_around(report::in_element(data()))); }
 
 }  // namespace sightline::app

@@ -24,9 +24,6 @@ Json packed(const std::vector<float>& numbers);
 /// Bits, the first the lowest of its byte: {"type": "u8", ...}.
 Json packed(const std::vector<bool>& bits);
 
-/// JSON as it stands in an element of a page: no tag begins or ends in it.
-std::string in_page(const Json& data);
-
 /// What stands at the end of a page of another kind, so that its scenes can be turned around: the text of pages, once,
 /// and what puts data() of Page into it where a button with `data-view="N"` asks for the N-th of the array in the
 /// element `views`.
