@@ -39,27 +39,6 @@ std::vector<Viewpoint> hard_views(const Polygon_soup& soup, std::size_t count, s
   return views;
 }
 
-/// A node's plane as a program has it in its own numbers: Newell's normal, through the first corner.
-template <class Number>
-std::array<Number, 4> plane_in(const Scene& scene, const Piece& piece) {
-  std::vector<std::array<Number, 3>> corners;
-  for (const Piece_corner& corner : scene.corners(piece)) {
-    const Exact_point p = scene.position(corner.point);
-    corners.push_back({static_cast<Number>(nearest_double(p[0])), static_cast<Number>(nearest_double(p[1])),
-                       static_cast<Number>(nearest_double(p[2]))});
-  }
-  std::array<Number, 4> h{};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto &p = corners[i], &q = corners[(i + 1) % corners.size()];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
-      h[k] += (p[x] - q[x]) * (p[y] + q[y]);
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * corners[0][k];
-  return h;
-}
-
 /// Moves to a viewpoint, and gives what counts the errors there, once the time is taken.
 using Count = std::function<std::size_t()>;
 using Frame_counts = std::function<Count(std::size_t view)>;
@@ -124,17 +103,9 @@ struct Cut_set_trial : Trial {
 
   template <class Number>
   Frame_counts in_numbers() const {
-    std::vector<std::array<Number, 4>> planes;
-    for (std::uint32_t node = 0; node < graph.size(); ++node)
-      planes.push_back(plane_in<Number>(scene, scene.pieces()[graph.piece(node)]));
-    return [this, planes = std::move(planes)](std::size_t k) -> Count {
-      std::array<Number, 3> eye;
-      for (std::size_t i = 0; i < 3; ++i) eye[i] = static_cast<Number>(nearest_double(views[k].at[i]));
-      std::vector<bool> on(planes.size());
-      for (std::size_t node = 0; node < on.size(); ++node) {
-        const auto& h = planes[node];
-        on[node] = h[0] * eye[0] + h[1] * eye[1] + h[2] * eye[2] + h[3] > 0;
-      }
+    auto planes = std::make_shared<const Rounded_planes<Number>>(graph);
+    return [this, planes](std::size_t k) -> Count {
+      const std::vector<bool> on = planes->on_view(views[k]);
       return [this, k, on] { return errors(k, on); };
     };
   }

@@ -64,6 +64,22 @@ Json packed(const std::vector<bool>& bits) {
   return packed_as("u8", bytes);
 }
 
+// ---- What doubles make of it
+
+Json asked_of_doubles(const Time_limit& limit, const std::function<Json(const Report& report)>& ask) {
+  Progress bar("what doubles make of it");
+  try {
+    return ask([&](std::size_t done, std::size_t all) {
+      if (limit.is_over()) throw Out_of_budget("");
+      bar(done, all);
+    });
+  } catch (const Out_of_budget&) {
+    return doubles_left_out(fmt::format("the budget of {} s ran out", limit.seconds()));
+  }
+}
+
+Json doubles_left_out(const std::string& why) { return {{"left_out", why}}; }
+
 // ---- What is put together
 
 Page::Page(const std::string& command, const Scene& scene, std::size_t triangles)

@@ -29,6 +29,13 @@ Json packed(const std::vector<bool>& bits);
 /// element `views`.
 std::string scenes_within();
 
+/// What stands under `doubles` in a page: what `ask` makes of an exact answer in plain doubles, while a bar of its own
+/// says how far it is. Once the limit, that of the exact answer, is over, what `ask` tells ends it, and the page says
+/// so instead: the exact answer stands.
+Json asked_of_doubles(const Time_limit& limit, const std::function<Json(const Report& report)>& ask);
+/// The same where doubles are not asked: why, in words that go on "Not asked: ".
+Json doubles_left_out(const std::string& why);
+
 /// A page as it is put together. Its places are (x - middle) / size for the middle of the scene's box and a power of
 /// two, so that scenes far away, and of any size, keep what a float can hold.
 /// Post: a file of at most 1 MB and 40 bytes a triangle, and what the command adds. Of more than most_triangles it
