@@ -8,8 +8,8 @@ commands.order = () => {
   polygons.faces.forEach((face, k) => { if (!placeOfFace.has(face)) placeOfFace.set(face, k); });
   const doubles = plainDoubles({
     who: 'An order in plain doubles', finds: 'nothing in the wrong place',
-    missing: {set: new Set(pairs.filter((_, i) => i % 2 === 0)), name: 'painted over', words: 'faces painted over though nearer'},
-    extra: {set: new Set(pairs.filter((_, i) => i % 2 === 1)), name: 'painted over nearer ones', words: 'faces painted over nearer ones'},
+    missing: {set: new Set(pairs.filter((_, i) => i % 2 === 0).sort()), name: 'painted over', words: 'faces painted over though nearer'},
+    extra: {set: new Set(pairs.filter((_, i) => i % 2 === 1).sort()), name: 'painted over nearer ones', words: 'faces painted over nearer ones'},
   });
   const goTo = face => { if (placeOfFace.has(face)) select(placeOfFace.get(face)); };
   return {
@@ -51,7 +51,7 @@ commands.graph = () => {
   for (const c of sizes.keys()) count = Math.max(count, c);
   const list = data.arcs ? unpacked(data.arcs) : null, matrix = data.arc_matrix ? unpacked(data.arc_matrix) : null;
   const nameOfPiece = n => polygons.place(n) === undefined ? 'one that is not drawn' : faceName(polygons.place(n));
-  const wrong = {missing: wrongNumbers('missing'), extra: wrongNumbers('extra')}, allWrong = key => new Set(wrong[key]);
+  const wrong = {missing: wrongNumbers('missing'), extra: wrongNumbers('extra')}, allWrong = key => new Set(wrong[key].slice().sort((a, b) => a - b));
   const doubles = plainDoubles({
     who: 'A comparison in plain doubles', finds: 'the same arcs', idOf: k => polygons.number(k), nameOf: nameOfPiece,
     missing: {set: allWrong('missing'), count: wrong.missing.length / 2, name: 'faces of missing arcs', words: 'arcs missing'},
@@ -129,7 +129,8 @@ commands.graph = () => {
         return [element('p', {className: 'row'}, swatchOf(colour), `${title}: ${set.size}`), listOf(names(set), faceName, i => select(i), 100)];
       };
       return element('div', {id: 'arcs'}, ...part('may be in front of it', inFront, palette.front), ...part('may be behind it', behind, palette.source),
-        ...[wrongWith('arcs-missing', 'with these plain doubles lack an arc', [...missing], nameOfPiece, goTo), wrongWith('arcs-extra', 'with these plain doubles have an arc that is none', [...extra], nameOfPiece, goTo)].filter(Boolean));
+        ...[wrongWith('arcs-missing', 'with these plain doubles lack an arc', [...missing], nameOfPiece, goTo), wrongWith('arcs-extra', 'with these plain doubles have an arc that is none', [...extra], nameOfPiece, goTo)].filter(Boolean),
+        doubles.errs && missing.size + extra.size === 0 ? element('p', {className: 'faint', id: 'arcs-right'}, 'plain doubles have all of its arcs right') : '');
     },
   };
 };
@@ -143,7 +144,7 @@ function plainDoubles({who, finds, missing, extra, idOf = k => polygons.faces[k]
   const kinds = [missing, extra], countOf = kind => kind.count === undefined ? kind.set.size : kind.count, same = kinds.every(kind => countOf(kind) === 0);
   const errors = element('p', {className: 'faint', id: 'errors'});
   let shown = false;
-  const names = set => [...set].slice(0, 30).map(nameOf).join(', ') + (set.size > 30 ? ' …' : '');
+  const names = set => { const all = [...new Set([...set].map(nameOf))]; return all.slice(0, 30).join(', ') + (all.length > 30 ? ' …' : ''); };
   const tell = () => { errors.textContent = kinds.filter(kind => kind.set.size > 0).map(kind => `${kind.name}: ${names(kind.set)}.`).join(' '); };
   return {
     /// Null where the polygon has its own colour.
@@ -154,6 +155,7 @@ function plainDoubles({who, finds, missing, extra, idOf = k => polygons.faces[k]
     /// From now on these are wrong: at another place, or beside what is selected.
     change(nextMissing, nextExtra) { missing.set = nextMissing, extra.set = nextExtra, tell(); },
     isShown: () => shown,
+    errs: !same,
     begin() {
       if (!data.doubles) return;
       const why = data.doubles.left_out;
@@ -234,7 +236,9 @@ commands.see = () => {
       pen.strokeStyle = colour, pen.lineWidth = wide;
       pen.beginPath();
       for (let s = 0; s <= 48; ++s) {
-        const d = unit(minus(add(times(1 - s / 48, p), times(s / 48, q)), eyePlace));
+        const away = minus(add(times(1 - s / 48, p), times(s / 48, q)), eyePlace);
+        if (lengthOf(away) < 1e-6) continue;  // a corner in the eye is in no direction
+        const d = unit(away);
         let turned = (middle - Math.atan2(d[1], d[0])) / (2 * Math.PI);
         turned -= Math.round(turned);
         const x = (turned + 0.5) * width, y = (0.5 - Math.asin(d[2]) / Math.PI) * height;

@@ -233,6 +233,10 @@ Json Page::data() {
   if (triangles_ > most_triangles_) keep_the_largest(most_triangles_);
   const bool is_thinned = kept_.size() < added_;
   if (is_thinned) add_note(fmt::format("thinned: of {} polygons the {} largest are drawn", added_, kept_.size()));
+  const auto is_point = [](const Polygon& polygon) { return polygon.area == 0; };
+  if (const auto points = std::count_if(kept_.begin(), kept_.end(), is_point); points > 0)
+    add_note(fmt::format("{} of the polygons {} too small beside the scene to be drawn", points,
+                         points == 1 ? "is" : "are"));
   if (!keeps_texts_) add_note("coordinates are rounded: those of so many corners would take too much of a page");
 
   Json data{{"format", "sightline page 1"},

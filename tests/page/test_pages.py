@@ -587,6 +587,77 @@ def test_faces_that_doubles_take_for_on_view_are_marked_as_the_path_is_played(op
     assert page.text("#errors") == ""
 
 
+def test_a_corner_in_the_eye_is_in_no_direction(open_page):
+    """Of what is selected the sphere shows the sides, and no line from the top to a corner that is the eye itself."""
+    page = open_page("see", corpus / "general" / "cube.off", "--eye=0,0,0")
+    corners, sizes = page.numbers("polygons", "corners"), page.numbers("polygons", "sizes")
+    heights = [{corners[3 * (sum(sizes[:k]) + i) + 2] for i in range(sizes[k])} for k in range(page.data["base"])]
+    page.js("sightline.select(arguments[0])", next(k for k, own in enumerate(heights) if own == {min(corners[2::3])}))  # the bottom, in whose plane the eye is
+    rows = page.js("""
+        const all = document.getElementById('sphere').getContext('2d').getImageData(0, 0, 1024, 512).data, rows = new Set();
+        for (let i = 0; i < all.length; i += 4) if (all[i] < 50 && all[i + 1] < 50 && all[i + 2] < 50) rows.add(i / 4 >> 10);
+        return [...rows];
+        """)
+    assert rows and min(rows) > 245 and max(rows) < 267, "all of its other corners are on the horizon"
+
+
+def test_the_sphere_shows_nothing_of_groups_that_are_left_out(open_page):
+    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
+    for box in page.all(".legend input")[:2]:
+        box.click()
+    paper = page.js("""
+        const c = document.getElementById('sphere'), all = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+        const p = getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number);
+        let count = 0;
+        for (let i = 0; i < all.length; i += 4) count += all[i] === p[0] && all[i + 1] === p[1] && all[i + 2] === p[2];
+        return count / (all.length / 4);
+        """)
+    assert paper > 0.9, "the paper and its grid; what lies beneath is no part of the sphere"
+
+
+def test_a_scene_without_faces_shows_what_else_there_is(open_page, tmp_path):
+    empty = tmp_path / "empty.off"
+    empty.write_text("OFF\n0 0 0\n")
+    assert open_page("cells", empty).picture()[0] > 0, "the walls of the one cell"
+
+
+def test_what_is_too_small_to_be_drawn_is_said(open_page, tmp_path):
+    scene, place = generated(tmp_path, "exponents", 2)
+    page = open_page("see", scene, place)
+    assert any(re.fullmatch(r"[0-9]+ of the polygons (is|are) too small beside the scene to be drawn", note) for note in page.data["notes"])
+    assert not any("too small" in note for note in open_page("see", corpus / "general" / "cube.off", "--eye=3,4,5", name="cube.html").data["notes"])
+
+
+def test_lines_from_behind_the_eye_are_drawn_where_they_are(open_page):
+    page = open_page("see", corpus / "general" / "cube.off", "--eye=2/5,1/2,1/3", "--lines")
+    lines, points, dark = page.js("""
+        const view = document.getElementById('view'), gl = view.getContext('webgl2');
+        let lines = 0, points = 0, dark = 0;
+        sightline.camera.field = 100;
+        for (let turn = 0; turn < 24; ++turn) {
+          sightline.camera.yaw = 0.3 + turn * Math.PI / 4, sightline.camera.pitch = [-0.5, 0.1, 0.5][turn % 3];
+          sightline.draw();
+          const scale = view.width / view.clientWidth, all = new Uint8Array(4 * view.width * view.height);
+          gl.readPixels(0, 0, view.width, view.height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+          for (const line of sightline.linesOf('visible')) {
+            if (sightline.onCanvas(line.from) || !sightline.onCanvas(line.to)) continue;
+            let seen = 0;
+            for (let t = 0; t < 1; t += 0.005) {
+              const at = sightline.onCanvas(line.from.map((x, k) => x + t * (line.to[k] - x)));
+              if (!at || at[0] < 4 || at[1] < 4 || at[0] > view.clientWidth - 5 || at[1] > view.clientHeight - 5) continue;
+              const x = Math.floor(at[0] * scale), y = view.height - 1 - Math.floor(at[1] * scale);
+              let least = 255;
+              for (let i = -1; i <= 1; ++i) for (let j = -1; j <= 1; ++j) least = Math.min(least, all[4 * ((y + j) * view.width + x + i)]);
+              ++seen, ++points, dark += least < 75;
+            }
+            lines += seen > 0;
+          }
+        }
+        return [lines, points, dark];
+        """)
+    assert lines > 10 and dark > 0.95 * points, (lines, points, dark)
+
+
 def test_the_unrolled_sphere_has_the_colour_of_what_is_met_there(open_page):
     page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
     size = page.js("const s = document.getElementById('sphere'); return [s.clientWidth, s.clientHeight]")
