@@ -349,10 +349,10 @@ void print(const Boolean_arguments& a, const std::vector<Polygon_soup>& solids, 
   row("result", fmt::format("{} faces, {} points; written as {} faces without holes", result.soup.face_count(),
                             result.soup.point_count(), written.face_count()));
   if (written.rounding) row("rounded", rounding_text(*written.rounding));
-  if (!a.out.empty() && !a.rounds() && !is_read_by_all(written.flat.soup))
-    row("exact", fmt::format("its points have a common denominator of more than {} bits: `verify --result` reads {}, "
-                             "other commands with --coordinates double",
-                             largest_common_denominator_bits, a.out));
+  if (!a.out.empty() && !a.rounds())
+    if (const std::string warning = warning_of_denominator(written.flat.soup, a.out, "`verify --result`");
+        !warning.empty())
+      row("exact", warning);
   row("volume", digits_of(written.volume, 17));
   row("edges", result.crowded.empty()
                    ? "each of two faces"

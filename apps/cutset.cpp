@@ -139,8 +139,35 @@ Json edges_json(const Face_graph& graph) {
   return {{"pieces", packed(pieces)}, {"corners", packed(corners)}, {"others", packed(others)}};
 }
 
-/// The path, and at each of its places what is on-view.
-void write_page(const Cutset_arguments& arguments, const Face_graph& graph, const Followed& followed) {
+/// At each place of the path the pieces of which a test of each plane in doubles says something else than an exact one.
+Json made_by_doubles(const Exact_traits& traits, const Face_graph& graph, const std::vector<Page_frame>& frames,
+                     const Time_limit& limit) {
+  const std::size_t pieces = graph.scene().pieces().size();
+  if (pieces > Page::most_triangles) return doubles_left_out("the faces are too many");
+  return asked_of_doubles(limit, [&](const Report& report) -> Json {
+    constexpr std::size_t most = 100000;  // of the one kind, in a page
+    const Rounded_planes<double> rounded(graph);
+    std::vector<std::uint32_t> begin_missing{0}, begin_extra{0}, missing, extra;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      report(k, frames.size());
+      const std::vector<bool> truth = on_view_nodes(traits, graph, frames[k].view),
+                              said = rounded.on_view(frames[k].view);
+      for (std::uint32_t i = 0; i < pieces; ++i) {
+        const std::uint32_t node = graph.node(i);
+        if (truth[node] != said[node]) (truth[node] ? missing : extra).push_back(i);
+      }
+      if (missing.size() > most || extra.size() > most)
+        return doubles_left_out("they err in too many faces for a page");
+      begin_missing.push_back(static_cast<std::uint32_t>(missing.size()));
+      begin_extra.push_back(static_cast<std::uint32_t>(extra.size()));
+    }
+    return {{"missing", {{"begin", packed(begin_missing)}, {"pieces", packed(missing)}}},
+            {"extra", {{"begin", packed(begin_extra)}, {"pieces", packed(extra)}}}};
+  });
+}
+
+/// The path, and at each of its places what is on-view; `doubles`: what stands under that key.
+void write_page(const Cutset_arguments& arguments, const Face_graph& graph, const Followed& followed, Json doubles) {
   Page page("cutset", graph.scene());
   page.add_fact("faces", fmt::format("{}", graph.scene().counters().faces));
   page.add_fact("face graph", fmt::format("{} nodes, {} edges", graph.size(), graph.edges().size()));
@@ -168,6 +195,7 @@ void write_page(const Cutset_arguments& arguments, const Face_graph& graph, cons
                            {"tests", packed(tests)},      {"at_infinity", packed(at_infinity)},
                            {"places", std::move(places)}, {"texts", std::move(texts)},
                            {"on_view", packed(on)}};
+  page.more()["doubles"] = std::move(doubles);
   constexpr std::size_t most_edges = 40000;
   if (graph.edges().size() <= most_edges) page.more()["edges"] = edges_json(graph);
   else page.add_note("so many edges are too many for a page: the cut is left out");
@@ -331,10 +359,12 @@ Exit run(const Cutset_arguments& arguments) {
   const Face_graph graph(scene);
   const Exact_traits traits(scene);
   const double graph_seconds = watch.seconds();
+  const Time_limit limit(common.budget);
   const Followed followed = follow(arguments, traits, graph, path);
 
   if (!arguments.svg.empty()) write_picture(arguments, graph, followed.frames);
-  if (!arguments.html.empty()) write_page(arguments, graph, followed);
+  if (!arguments.html.empty())
+    write_page(arguments, graph, followed, made_by_doubles(traits, graph, followed.page, limit));
   Json result;
   if (!common.json.empty()) result["frames"] = frames_json(followed.frames, arguments);
   if (arguments.check) result["wrong_frames"] = followed.wrong;

@@ -10,8 +10,10 @@
 #include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/algorithms/priority/kernels.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/verify/order.h>
+#include <sightline/harness/judge/order.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <iostream>
@@ -154,9 +156,74 @@ static Outcome run_skipping(Scene& scene, const Task& task, Skipped_order& skipp
   return outcome;
 }
 
-/// The fragments in their order, back to front.
+/// An order, and what the way to it says besides.
+struct Found_order {
+  Outcome outcome;
+  Graph_order graph;      // by the graph
+  Skipped_order skipped;  // with --skip-hidden
+};
+
+/// An order of the same kind in plain doubles, as the judge takes it: faces that are drawn once, in one piece, stand
+/// for themselves, others for the parts that doubles make of them.
+static judge::Answer order_in_doubles(const Order_arguments& arguments, Scene& scene, Task task) {
+  judge::Answer answer;
+  task.near = std::nullopt;
+  if (!arguments.by_graph()) {
+    for (Drawn& item : run_method("double", scene, task).drawn)
+      answer.order.push_back({item.fragment.face, std::move(item.fragment.vertices)});
+  } else {
+    const Double_traits traits(scene);
+    const auto tree = build_priority_tree(traits, {arguments.two_sided, false, task.bsp.progress});
+    const auto order = back_to_front(traits, tree, *task.eye, task.bsp.progress);
+    for (const Convex_polygon<Double_traits>& polygon : order.polygons) {
+      judge::Drawn_face drawn{scene.pieces()[polygon.piece].face, {}};
+      try {
+        for (const Corner<Double_traits>& corner : polygon) drawn.part.push_back(traits.position(*corner.vertex));
+        answer.order.push_back(std::move(drawn));
+      } catch (const std::domain_error&) {  // what is no number is not drawn
+      }
+    }
+  }
+  std::vector<std::uint32_t> parts(scene.counters().faces_read), pieces(scene.counters().faces_read);
+  for (const judge::Drawn_face& drawn : answer.order) ++parts[drawn.face];
+  for (const Piece& piece : scene.pieces()) ++pieces[piece.face];
+  for (judge::Drawn_face& drawn : answer.order)
+    if (parts[drawn.face] == 1 && pieces[drawn.face] == 1) drawn.part.clear();
+  return answer;
+}
+
+/// What is in the wrong place where the order is found in plain doubles: pairs of faces, of which the first is nearer
+/// somewhere, but the second painted over it.
+static Json made_by_doubles(const Order_arguments& arguments, Scene& scene, const Task& task, const Found_order& found,
+                            const Time_limit& limit) {
+  // Each part is compared with all that it overlaps: where parts are so many, for seconds.
+  constexpr std::size_t most_parts = 4000, most_pairs = 50000;
+  if (arguments.kernel == "float" || arguments.kernel == "double" || arguments.kernel == "epick")
+    return doubles_left_out(fmt::format("by --kernel {} the order is not exact itself", arguments.kernel));
+  if (!scene.non_planar().empty()) return doubles_left_out("some faces are not planar");
+  if (found.outcome.drawn.size() > most_parts || scene.pieces().size() > most_parts)
+    return doubles_left_out(fmt::format("of more than {} parts all pairs would take too long", most_parts));
+  return asked_of_doubles(limit, [&](const Report& report) -> Json {
+    Task in_doubles = task;
+    in_doubles.bsp.progress = report;
+    const judge::Answer answer = order_in_doubles(arguments, scene, in_doubles);
+    if (answer.order.size() > 2 * most_parts)
+      return doubles_left_out(fmt::format("they cut faces into {} parts", answer.order.size()));
+    const judge::Order_truth truth(scene, *task.eye, !arguments.by_graph() || arguments.two_sided);
+    report(1, 2);
+    const std::vector<std::array<Face_id, 2>> wrong = truth.wrong_pairs(answer);
+    report(1, 1);
+    if (wrong.size() > most_pairs)
+      return doubles_left_out(fmt::format("{} wrong pairs are too many for a page", wrong.size()));
+    std::vector<std::uint32_t> pairs;
+    for (const auto& [covered, over] : wrong) pairs.insert(pairs.end(), {covered, over});
+    return {{"pairs", packed(pairs)}};
+  });
+}
+
+/// The fragments in their order, back to front; `doubles`: what stands under that key.
 static void write_page(const Order_arguments& arguments, const Scene& scene, const Exact_point& eye,
-                       const Outcome& outcome) {
+                       const Outcome& outcome, Json doubles) {
   Page page("order", scene);
   page.set_eye(eye);
   page.add_fact("faces", fmt::format("{}", scene.counters().faces));
@@ -167,6 +234,7 @@ static void write_page(const Order_arguments& arguments, const Scene& scene, con
   page.add_fact("eye", Page::text(eye));
   page.add_group("painted", "one a face");
   for (const Drawn& item : outcome.drawn) page.add_polygon(item.fragment.face, item.fragment.vertices);
+  page.more()["doubles"] = std::move(doubles);
   page.write(arguments.html);
 }
 
@@ -194,13 +262,6 @@ static void check_usage(const Order_arguments& arguments) {
   if (arguments.by_graph() || arguments.kernel != "exact")
     throw Usage_error("--skip-hidden is for a tree, and exact: leave out --method and --kernel");
 }
-
-/// An order, and what the way to it says besides.
-struct Found_order {
-  Outcome outcome;
-  Graph_order graph;      // by the graph
-  Skipped_order skipped;  // with --skip-hidden
-};
 
 /// Back to front. Pre: the task has a near plane only where a picture wants one of an order that is not a plain tree's.
 static Found_order find_order(const Order_arguments& arguments, Scene& scene, const Task& task) {
@@ -333,6 +394,7 @@ static Exit run(const Order_arguments& arguments) {
 
   // 1. The order.
   Progress progress("building");
+  const Time_limit limit(common.budget);
   Task task;
   task.eye = eye;
   task.bsp.seed = common.seed;
@@ -344,7 +406,10 @@ static Exit run(const Order_arguments& arguments) {
   // 2. What is written of it, back to front.
   if (!arguments.certificate.empty()) write_order_certificate(arguments, scene, eye, found, task.bsp);
   if (!arguments.svg.empty()) write_picture(arguments, scene, view, task, near, found);
-  if (!arguments.html.empty()) write_page(arguments, scene, eye, found.outcome);
+  if (!arguments.html.empty()) {
+    progress.clear();
+    write_page(arguments, scene, eye, found.outcome, made_by_doubles(arguments, scene, task, found, limit));
+  }
   if (!arguments.mesh.empty()) write_mesh(arguments.mesh, found.outcome);
 
   // 3. What is told of it; the other way round is an order, too.

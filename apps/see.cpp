@@ -144,7 +144,7 @@ std::vector<Face_id> without(const std::vector<Face_id>& faces, const std::vecto
 
 /// The visible parts over the scene's pieces, its lines, and what plain doubles would have made of it.
 void write_page(const See_arguments& arguments, const Scene& scene, const Exact_point& eye, const Seen& seen,
-                const Seen* doubles) {
+                Json doubles) {
   Page page("see", scene);
   page.set_eye(eye);
   page.add_fact("faces", fmt::format("{}", scene.counters().faces));
@@ -158,9 +158,7 @@ void write_page(const See_arguments& arguments, const Scene& scene, const Exact_
   page.more()["base"] = page.polygons();
   for (const Drawn& part : seen.parts)
     page.add_polygon(part.fragment.face, part.fragment.vertices, part.side == CGAL::POSITIVE ? 0 : 1);
-  if (doubles != nullptr)
-    page.more()["doubles"] = {{"missing", packed(without(seen.visible, doubles->visible))},
-                              {"extra", packed(without(doubles->visible, seen.visible))}};
+  page.more()["doubles"] = std::move(doubles);
   if (!arguments.lines) page.add_note("--lines adds the scene's edges, hidden ones dashed, and what hides them");
   constexpr std::size_t most_parts = 12000, most_texts = 1000;
   std::size_t parts = 0;
@@ -297,6 +295,18 @@ void write_picture(const See_arguments& arguments, const Scene& scene, const Vie
   write_file(arguments.svg, svg.text());
 }
 
+/// The faces that the same algorithm in doubles gets wrong, for the page.
+Json made_by_doubles(const See_arguments& arguments, const Scene& scene, const Exact_point& eye, const Seen& seen,
+                     Visible_options options, const Time_limit& limit) {
+  if (arguments.frustum) return doubles_left_out("they look in all directions, and --frustum does not");
+  return asked_of_doubles(limit, [&](const Report& report) -> Json {
+    options.progress = report;
+    const Seen doubles = see(scene, eye, "double", {}, {arguments.two_sided, false, "regions", "", false}, options);
+    return {{"missing", packed(without(seen.visible, doubles.visible))},
+            {"extra", packed(without(doubles.visible, seen.visible))}};
+  });
+}
+
 /// The parts that count: with --two-sided backs, too.
 std::vector<const Drawn*> counted_parts(const Seen& seen, bool two_sided) {
   std::vector<const Drawn*> parts;
@@ -385,6 +395,7 @@ Exit run(const See_arguments& arguments) {
 
   // 1. What is seen.
   Progress progress("looking");
+  const Time_limit limit(common.budget);
   Visible_options options;
   options.threads = common.threads;
   options.progress = common.within_budget(progress);
@@ -398,10 +409,8 @@ Exit run(const See_arguments& arguments) {
   // 2. What is drawn of it.
   if (!arguments.svg.empty()) write_picture(arguments, scene, view, options);
   if (!arguments.html.empty()) {
-    std::optional<Seen> doubles;  // of the whole sphere
-    if (field.empty())
-      doubles = see(scene, eye, "double", field, {arguments.two_sided, false, "regions", "", false}, options);
-    write_page(arguments, scene, eye, seen, doubles ? &*doubles : nullptr);
+    progress.clear();
+    write_page(arguments, scene, eye, seen, made_by_doubles(arguments, scene, eye, seen, options, limit));
   }
   if (!arguments.mesh.empty()) write_mesh(arguments.mesh, scene, seen);
   progress.clear();

@@ -10,5 +10,8 @@ template Eye_order<Float_traits> back_to_front(const Float_traits&, const Priori
 template Eye_order<Double_traits> back_to_front(const Double_traits&, const Priority_tree<Double_traits>&,
                                                 const Exact_point&,
                                                 const std::function<void(std::size_t, std::size_t)>&);
+template class Priority_relation<Double_traits>;
+template Explicit_priority_graph::Explicit_priority_graph(const Priority_relation<Double_traits>&,
+                                                          const std::function<void(std::size_t, std::size_t)>&);
 
 }  // namespace sightline

@@ -30,7 +30,10 @@ struct Compare_arguments {
   std::string ray_file;
   std::size_t random = 1000;           ///< rays of each kind
   std::optional<judge::Query> solids;  ///< of report's question boolean: what is asked of the scene's two solids
-  bool says = false;                   ///< order, see, weak: rows hold the answer too, as "said"
+  /// Rows hold the answer too: of order, see, weak as "said"; of render, trace, cutset and pvs the faces that it has
+  /// wrong as "wrong_faces": {"missing": {"faces", "name"}, "extra": the same, "words"}, of cutset "at", the viewpoint,
+  /// of trace "line": {"face", "from", "to"}, where there is one.
+  bool says = false;
 };
 
 /// A row of the table: who is asked, and how to judge the answer, in a process of its own.

@@ -3,6 +3,8 @@
 
 #include "compare.h"
 #include "page.h"
+
+#include "../support/page.h"
 #include "leaves.h"
 
 #include <sightline/algorithms/levels/pvs.h>
@@ -26,10 +28,12 @@ struct Cells_question {
   const Occluders& occluders;
   const Pvs& exact;
   const std::vector<Cell_id>& cells;  // that are asked about
+  bool says;                          // the faces that are wrong, too
 };
 
 Json judged(const Cells_question& question, const Sets& said, double seconds, const Peak_memory& memory) {
   std::size_t visible = 0, hidden_wrongly = 0, visible_wrongly = 0, worst = 0;
+  Json wrong_faces;  // of the first cell that has some
   for (const Cell_id c : question.cells) {
     const std::vector<Face_id>& truth = question.exact.visible[c];
     std::vector<Face_id> missing, more;
@@ -39,14 +43,23 @@ Json judged(const Cells_question& question, const Sets& said, double seconds, co
     hidden_wrongly += missing.size();
     visible_wrongly += more.size();
     worst = std::max(worst, missing.size());
+    if (question.says && wrong_faces.is_null() && missing.size() + more.size() > 0) {
+      const Exact_point at = question.level.inside(c);
+      wrong_faces = {{"missing", {{"faces", missing}, {"name", "seen from the cell, but not said to be"}}},
+                     {"extra", {{"faces", more}, {"name", "not seen from the cell, but said to be"}}},
+                     {"words", fmt::format("cell {}, about ({}): faces that it sees missing {}, too many {}", c,
+                                           Page::text(at), missing.size(), more.size())}};
+    }
   }
-  return {
+  Json row{
       {"status", "done"},
       {"seconds", seconds},
       {"peak_bytes", memory.bytes()},
       {"visible", visible},
       {"pairs", question.exact.counters.pairs},
       {"errors", {{"wrongly_visible", visible_wrongly}, {"wrongly_hidden", hidden_wrongly}, {"worst_cell", worst}}}};
+  if (!wrong_faces.is_null()) row["wrong_faces"] = std::move(wrong_faces);
+  return row;
 }
 
 /// Random points of a cell: weighted means of its corners.
@@ -253,7 +266,7 @@ struct Level_trial : Trial {
         exact(potentially_visible(level, limited ? within(arguments.common.budget) : options)),
         seconds(watch.seconds()),
         cells(asked_cells(exact)),
-        question{level, occluders, exact, cells} {
+        question{level, occluders, exact, cells, arguments.says} {
     const Common& common = arguments.common;
     const std::string bytes = common.scene.empty() || common.scene == "-" ? std::string() : read_bytes(common.scene);
     if (looks_like_quake_level(bytes)) {

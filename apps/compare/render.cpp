@@ -135,17 +135,26 @@ static Json judge_samples(const Scene& scene, const Pixel_view& pixels, const st
 }
 
 static Json judge_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, const std::vector<Tint>& tints,
-                        int threads, const Image_truth& truth) {
+                        int threads, const Image_truth& truth, bool says) {
   Image_options options;
   options.threads = threads;
   if (task.method == "exact") return judge_exact(scene, pixels, tints, task.seed, options, truth);
   const Peak_memory memory;
   const Image_outcome outcome = run_image(scene, pixels, task, options);
   const std::uint64_t bytes = memory.bytes();
-  return {{"status", "done"},
-          {"seconds", outcome.seconds},
-          {"peak_bytes", bytes},
-          {"errors", errors_of(scene, outcome, truth)}};
+  Json row{{"status", "done"},
+           {"seconds", outcome.seconds},
+           {"peak_bytes", bytes},
+           {"errors", errors_of(scene, outcome, truth)}};
+  if (!says || outcome.blended) return row;
+  const Image_errors e = image_errors(scene, truth.pieces, *outcome.pieces);
+  row["wrong_faces"] = {
+      {"missing", {{"faces", e.covered}, {"name", "not shown where it is seen"}}},
+      {"extra", {{"faces", e.shown}, {"name", "shown where it is not"}}},
+      {"words",
+       fmt::format("{} of {} x {} pixels show another face than what a ray through their middle meets, or none",
+                   e.wrong, pixels.width, pixels.height)}};
+  return row;
 }
 
 static std::string name_of(const Json& r) {
@@ -286,8 +295,9 @@ struct Image_trial : Trial {
   std::uint64_t seed() const { return arguments.common.seed; }
   void add(Json name, Image_task task) {
     task.tints = transparent ? &tints : nullptr;
-    contestants.push_back(
-        {std::move(name), [this, task] { return judge_image(scene, pixels, task, tints, threads, truth); }});
+    contestants.push_back({std::move(name), [this, task] {
+                             return judge_image(scene, pixels, task, tints, threads, truth, arguments.says);
+                           }});
   }
   static Pixel_view pixels_of(View_arguments of_image, const Exact_point& eye, const Scene& scene) {
     if (of_image.canvas.size.empty()) of_image.canvas.size = "512x512";

@@ -3,6 +3,8 @@
 #include "compare.h"
 #include "page.h"
 
+#include "../support/page.h"
+
 #include "../methods/rays.h"
 #include "../support/paths.h"
 
@@ -23,10 +25,12 @@ struct Asked_rays {
   std::vector<std::size_t> kind;  ///< of each ray
   std::vector<Exact_ray> rays;
   std::vector<std::vector<Face_hit>> truth;
+  bool says = false;  ///< the faces that are wrong, too
 };
 
 Asked_rays rays_of(const Compare_arguments& arguments, const Polygon_soup& soup) {
   Asked_rays asked;
+  asked.says = arguments.says;
   const auto add = [&](const Exact_ray& ray) {
     asked.kind.push_back(asked.kinds.size() - 1);
     asked.rays.push_back(ray);
@@ -42,6 +46,24 @@ Asked_rays rays_of(const Compare_arguments& arguments, const Polygon_soup& soup)
     for (std::size_t i = 0; i < arguments.random; ++i) add(kind.make(soup, random));
   }
   return asked;
+}
+
+/// What is wrong about one ray: `said` is the face that is named, or nothing.
+Json wrong_faces_of(const Exact_ray& ray, const std::vector<Face_hit>& truth, Face_id said) {
+  std::vector<Face_id> met, named;
+  for (const Face_hit& hit : truth) met.push_back(hit.face);
+  if (said != Ray_tracer::Nearest::nothing) named.push_back(said);
+  Json wrong{{"missing", {{"faces", met}, {"name", "met, but not named"}}},
+             {"extra", {{"faces", named}, {"name", "named, but not met first"}}},
+             {"words", fmt::format("the ray from ({}) in direction ({}) meets {}; {} is named", Page::text(ray.origin),
+                                   Page::text(ray.direction),
+                                   met.empty() ? "nothing" : fmt::format("face {} first", met.front()),
+                                   named.empty() ? "nothing" : fmt::format("face {}", said))}};
+  if (truth.empty()) return wrong;
+  Exact_point at;
+  for (std::size_t k = 0; k < 3; ++k) at[k] = ray.origin[k] + truth.front().t * ray.direction[k];
+  wrong["line"] = {{"face", met.front()}, {"from", point_json(ray.origin)}, {"to", point_json(at)}};
+  return wrong;
 }
 
 struct Ray_errors {
@@ -60,13 +82,17 @@ Json judge_rays(const Asked_rays& asked, Prepare prepare) {
   for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = find(i);
   const double seconds = watch.seconds() - ready;
   std::vector<Ray_errors> by_kind(asked.kinds.size());
+  Json wrong_faces;  // of the first ray that is wrong
   for (std::size_t i = 0; i < faces.size(); ++i) {
     Ray_errors& e = by_kind[asked.kind[i]];
     const std::vector<Face_hit>& truth = asked.truth[i];
     ++e.rays;
+    const Ray_errors before = e;
     if (truth.empty()) e.invented += faces[i] != Ray_tracer::Nearest::nothing;
     else if (faces[i] == Ray_tracer::Nearest::nothing) ++e.missed;
     else e.wrong += std::none_of(truth.begin(), truth.end(), [&](const Face_hit& hit) { return hit.face == faces[i]; });
+    const bool is_wrong = e.invented + e.missed + e.wrong > before.invented + before.missed + before.wrong;
+    if (is_wrong && asked.says && wrong_faces.is_null()) wrong_faces = wrong_faces_of(asked.rays[i], truth, faces[i]);
   }
   Ray_errors all;
   Json kinds = Json::object();
@@ -77,8 +103,10 @@ Json judge_rays(const Asked_rays& asked, Prepare prepare) {
     all.wrong += by_kind[k].wrong;
     kinds[asked.kinds[k]] = by_kind[k].json();
   }
-  return {{"status", "done"},     {"prepare", ready},           {"seconds", seconds}, {"peak_bytes", memory.bytes()},
-          {"errors", all.json()}, {"by_kind", std::move(kinds)}};
+  Json row{{"status", "done"},     {"prepare", ready},           {"seconds", seconds}, {"peak_bytes", memory.bytes()},
+           {"errors", all.json()}, {"by_kind", std::move(kinds)}};
+  if (!wrong_faces.is_null()) row["wrong_faces"] = std::move(wrong_faces);
+  return row;
 }
 
 Face_id first_face(const std::vector<Face_hit>& hits) {

@@ -5,11 +5,15 @@
 #include "clusters.h"
 
 #include <sightline/algorithms/priority/certificate.h>
+#include <sightline/algorithms/priority/kernels.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
+#include <algorithm>
+#include <array>
 #include <iostream>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -19,6 +23,17 @@ namespace sightline::app {
 namespace {
 
 using Faces = Priority_relation<Exact_traits>;
+/// Of so many all pairs are compared in a moment: arcs are counted without being asked for.
+constexpr std::uint32_t few_faces = 2000;
+
+/// Which viewpoints are asked about: all, those of a box or of the hull of some points, one, or those of one ray.
+struct Viewpoints {
+  std::vector<Exact_point> box, region;
+  std::optional<Exact_point> eye, direction;  // with a direction the ray's; by itself, an eye
+
+  bool are_all() const { return box.empty() && region.empty() && !eye; }
+};
+
 /// What a run found.
 struct Found {
   std::string scope;  // the viewpoints, in words
@@ -32,8 +47,6 @@ struct Found {
 /// Components and arcs of a relation of whatever scope.
 template <class Relation>
 Found find(const Relation& relation, const Graph_arguments& arguments, const Report& in_time) {
-  // Arcs are counted where that takes no longer than a moment.
-  constexpr std::uint32_t few = 2000;
   Found found;
   const bool is_explicit = arguments.method == "explicit";
   const Stopwatch watch;
@@ -44,7 +57,7 @@ Found find(const Relation& relation, const Graph_arguments& arguments, const Rep
     found.component_seconds = watch.seconds();
     found.counters = counters_json(graph.counters());
   }
-  if (is_explicit || arguments.arcs || !arguments.dot.empty() || relation.size() <= few) {
+  if (is_explicit || arguments.arcs || !arguments.dot.empty() || relation.size() <= few_faces) {
     Progress progress("comparing");
     found.arcs.emplace(relation, shown(in_time, progress));
     if (is_explicit) {
@@ -92,8 +105,48 @@ std::string dot_of(const Scene& scene, const Found& found) {
   return text + "}\n";
 }
 
-/// The pieces with their components, and the arcs where they are known and not too many.
-void write_page(const Scene& scene, const Found& found, const std::string& file) {
+/// All arcs of a graph, one after another, sorted.
+std::vector<std::array<std::uint32_t, 2>> arcs_of(const Explicit_priority_graph& graph) {
+  std::vector<std::array<std::uint32_t, 2>> arcs;
+  arcs.reserve(graph.arc_count());
+  for (const auto& arc : boost::make_iterator_range(boost::edges(graph.boost_graph())))
+    arcs.push_back({static_cast<std::uint32_t>(boost::source(arc, graph.boost_graph())),
+                    static_cast<std::uint32_t>(boost::target(arc, graph.boost_graph()))});
+  return arcs;
+}
+
+/// The arcs of one sorted list that are not in the other: numbers, two an arc.
+std::vector<std::uint32_t> without(const std::vector<std::array<std::uint32_t, 2>>& arcs,
+                                   const std::vector<std::array<std::uint32_t, 2>>& others) {
+  std::vector<std::array<std::uint32_t, 2>> left;
+  std::set_difference(arcs.begin(), arcs.end(), others.begin(), others.end(), std::back_inserter(left));
+  std::vector<std::uint32_t> numbers;
+  for (const auto& [from, to] : left) numbers.insert(numbers.end(), {from, to});
+  return numbers;
+}
+
+/// The arcs that the same comparison of all pairs in plain doubles lacks, and those that it has too many.
+Json made_by_doubles(const Scene& scene, const Viewpoints& asked, const Found& found, const Time_limit& limit) {
+  constexpr std::size_t most_arcs = 60000;
+  if (!found.arcs) return doubles_left_out("the arcs are not known");
+  if (!asked.are_all()) return doubles_left_out("the viewpoints are not all");
+  if (found.arcs->size() > few_faces)
+    return doubles_left_out(fmt::format("of more than {} faces all pairs would take as long once more", few_faces));
+  return asked_of_doubles(limit, [&](const Report& report) -> Json {
+    const Double_traits traits(scene);
+    const auto exact = arcs_of(*found.arcs),
+               rounded = arcs_of(Explicit_priority_graph(Priority_relation<Double_traits>(traits), report));
+    const std::vector<std::uint32_t> missing = without(exact, rounded), extra = without(rounded, exact);
+    if (missing.size() + extra.size() > 2 * most_arcs)
+      return doubles_left_out(
+          fmt::format("{} wrong arcs are too many for a page", (missing.size() + extra.size()) / 2));
+    return {{"missing", packed(missing)}, {"extra", packed(extra)}};
+  });
+}
+
+/// The pieces with their components, and the arcs where they are known and not too many; `doubles`: what stands under
+/// that key.
+void write_page(const Scene& scene, const Found& found, const std::string& file, Json doubles) {
   const Priority_components& all = found.components;
   Page page("graph", scene);
   page.add_fact("faces", fmt::format("{}", scene.counters().faces));
@@ -126,6 +179,7 @@ void write_page(const Scene& scene, const Found& found, const std::string& file)
     if (!matrix.empty()) page.more()["arc_matrix"] = packed(matrix);
     else if (found.arcs->arc_count() <= most_arcs) page.more()["arcs"] = packed(list);
   }
+  page.more()["doubles"] = std::move(doubles);
   page.write(file);
 }
 
@@ -195,14 +249,6 @@ void write_mesh(const Scene& scene, const Priority_components& components, const
   polygons.add_column("component", std::move(numbers));
   write_drawings({}, file, polygons);
 }
-
-/// Which viewpoints are asked about: all, those of a box or of the hull of some points, one, or those of one ray.
-struct Viewpoints {
-  std::vector<Exact_point> box, region;
-  std::optional<Exact_point> eye, direction;  // with a direction the ray's; by itself, an eye
-
-  bool are_all() const { return box.empty() && region.empty() && !eye; }
-};
 
 /// Usage errors come before a long read.
 Viewpoints viewpoints_of(const Graph_arguments& arguments) {
@@ -299,6 +345,7 @@ Exit run(const Graph_arguments& arguments) {
   check_pictures(arguments, views.size());
   const Scene scene = scene_of(common.read());
   const Report in_time = common.within_budget();
+  const Time_limit limit(common.budget);
   const Exact_traits traits(scene);
   const Faces faces(traits);
 
@@ -311,7 +358,7 @@ Exit run(const Graph_arguments& arguments) {
     });
   }
   if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
-  if (!arguments.html.empty()) write_page(scene, found, arguments.html);
+  if (!arguments.html.empty()) write_page(scene, found, arguments.html, made_by_doubles(scene, asked, found, limit));
   if (!arguments.mesh.empty()) write_mesh(scene, found.components, arguments.mesh);
 
   // 2. What stands on it: clusters, and what pixels see.

@@ -43,8 +43,9 @@ Json explained(const Judge_arguments& arguments, const Judge_case& asked, const 
                     {"by", line.by ? Json(*line.by) : Json()},
                     {"words", line.words}};
   }
-  json["picture"] = picture_of(asked.soup, asked.query, broken.grade, why);
-  json["view"] = view_of("judge", arguments.query, asked.soup, asked.query, broken.grade, why);
+  const Wrong_words words = words_of_wrong(asked.query.question);
+  json["picture"] = picture_of(asked.soup, asked.query, broken.grade, why, words);
+  json["view"] = view_of("judge", arguments.query, asked.soup, asked.query, broken.grade, why, words);
   return json;
 }
 

@@ -4,6 +4,8 @@
 
 #include "../support/page.h"
 
+#include <sightline/harness/report/page.h>
+
 namespace sightline::app {
 
 namespace {
@@ -199,7 +201,8 @@ std::string judge_page(const Json& document) {
       std::string(style) + "</style></head><body>\n" + verdict_html(document, views) + cases_html(result) +
       failures_html(result["failures"], views);
   if (!views.empty())
-    html += "<script type=\"application/json\" id=\"views\">" + in_page(views) + "</script>\n" + scenes_within();
+    html +=
+        "<script type=\"application/json\" id=\"views\">" + report::in_element(views) + "</script>\n" + scenes_within();
   return html + "</body></html>\n";
 }
 

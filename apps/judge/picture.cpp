@@ -185,15 +185,16 @@ void draw_line(Svg& svg, const View& view, const Shown_line& line, const judge::
 }
 
 /// What the colours mean that are there, in a line at the bottom.
-void draw_key(Svg& svg, const judge::Query& query, const judge::Grade& grade, const judge::Explanation& why) {
+void draw_key(Svg& svg, const judge::Query& query, const judge::Grade& grade, const judge::Explanation& why,
+              const Wrong_words& names) {
   double x = 8;
   const auto key = [&](std::string_view colour, std::string_view words) {
     svg.rectangle(x, 344, 10, 10, colour);
     svg.label(x + 14, 353, 11, words);
     x += 26 + 5.8 * static_cast<double>(words.size());
   };
-  if (!grade.wrong_hidden.empty()) key("hsl(20,90%,58%)", words_of_wrong_hidden(query.question));
-  if (!grade.wrong_visible.empty()) key("hsl(285,60%,62%)", words_of_wrong_visible(query.question));
+  if (!grade.wrong_hidden.empty()) key("hsl(20,90%,58%)", names.hidden);
+  if (!grade.wrong_visible.empty()) key("hsl(285,60%,62%)", names.visible);
   if (why.refutation && why.refutation->by) key("hsl(205,55%,58%)", "in the way");
   if (query.question == judge::Question::weak) key("hsl(50,85%,60%)", "source");
   if (grade.wrong()) key("hsl(140,12%,72%)", "right");
@@ -206,30 +207,19 @@ std::array<double, 3> look_at_front(const Scene& scene, const judge::Explanation
   return best_look(unit(near(minus(line.from, line.to))), normal_of_refuted(scene, why), true);
 }
 
-std::string_view words_of_wrong_hidden(judge::Question question) {
+Wrong_words words_of_wrong(judge::Question question) {
   switch (question) {
-    case judge::Question::order: return "nearer, or missing";
-    case judge::Question::trace: return "met, but not named";
-    case judge::Question::boolean: return "lacks what is beside";
+    case judge::Question::order: return {"nearer, or missing", "drawn over it"};
+    case judge::Question::trace: return {"met, but not named", "named, but not met first"};
+    case judge::Question::boolean: return {"lacks what is beside", "holds what is beside"};
     case judge::Question::see:
     case judge::Question::weak: break;
   }
-  return "missing but visible";
-}
-
-std::string_view words_of_wrong_visible(judge::Question question) {
-  switch (question) {
-    case judge::Question::order: return "drawn over it";
-    case judge::Question::trace: return "named, but not met first";
-    case judge::Question::boolean: return "holds what is beside";
-    case judge::Question::see:
-    case judge::Question::weak: break;
-  }
-  return "shown but hidden";
+  return {"missing but visible", "shown but hidden"};
 }
 
 std::string picture_of(const Polygon_soup& soup, const judge::Query& query, const judge::Grade& grade,
-                       const judge::Explanation& why) {
+                       const judge::Explanation& why, const Wrong_words& words) {
   const bool weak = query.question == judge::Question::weak;
   std::vector<Exact_point> points;
   for (Face_id f = 0; f < soup.face_count(); ++f)
@@ -263,7 +253,7 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
     svg.line(projected(view, query.source[k]), projected(view, query.source[(k + 1) % query.source.size()]), "#c09000",
              2);
   draw_line(svg, view, line, query, why);
-  draw_key(svg, query, grade, why);
+  draw_key(svg, query, grade, why, words);
   return svg.text();
 }
 

@@ -17,15 +17,14 @@ struct Face_group {
 
 /// What of an answer is wrong; in orders one pair, as all of them may be most of the scene.
 std::vector<Face_group> groups_of_wrong(judge::Question question, const judge::Grade& grade,
-                                        const judge::Explanation& why) {
+                                        const judge::Explanation& why, const Wrong_words& words) {
   std::vector<Face_id> hidden = grade.wrong_hidden, visible = grade.wrong_visible;
   if (!grade.wrong_pairs.empty()) {
     const bool known = why.refutation && why.refutation->over;
     hidden = {known ? why.refutation->face : grade.wrong_pairs[0][0]};
     visible = {known ? *why.refutation->over : grade.wrong_pairs[0][1]};
   }
-  std::vector<Face_group> groups{{std::string(words_of_wrong_hidden(question)), "front", hidden},
-                                 {std::string(words_of_wrong_visible(question)), "open", visible}};
+  std::vector<Face_group> groups{{words.hidden, "front", hidden}, {words.visible, "open", visible}};
   if (why.refutation && why.refutation->by) groups.push_back({"in the way", "other", {*why.refutation->by}});
   if (question == judge::Question::see || question == judge::Question::weak)
     groups.push_back({"left open", "new", grade.abstained});
@@ -67,7 +66,8 @@ void note_what_is_set_aside(const Scene& scene, Page& page) {
 }  // namespace
 
 Json view_of(const std::string& command, const std::string& question, const Polygon_soup& soup,
-             const judge::Query& query, const judge::Grade& grade, const judge::Explanation& why) {
+             const judge::Query& query, const judge::Grade& grade, const judge::Explanation& why,
+             const Wrong_words& words) {
   constexpr std::size_t most_triangles = 3000;
   if (soup.point_count() == 0) return nullptr;
   const Scene scene(soup);
@@ -80,7 +80,7 @@ Json view_of(const std::string& command, const std::string& question, const Poly
   note_what_is_set_aside(scene, page);
 
   // 1. Faces, the first group that holds one; and the source, after all of them.
-  const std::vector<Face_group> groups = groups_of_wrong(query.question, grade, why);
+  const std::vector<Face_group> groups = groups_of_wrong(query.question, grade, why, words);
   for (const Face_group& group : groups) page.add_group(group.name, group.role);
   page.add_group(grade.wrong() ? "right" : "faces", grade.wrong() ? "face" : "one a face");
   page.add_pieces(scene, [&](std::uint32_t piece) {
@@ -99,7 +99,7 @@ Json view_of(const std::string& command, const std::string& question, const Poly
 
   // 2. Who looks, and the line; of what is far away only its direction is in view at first.
   const Rational reach = reach_of(scene);
-  if (question == "order" || question == "see" || question == "render") {
+  if (question == "order" || question == "see" || question == "render" || question == "cutset") {
     page.set_eye(query.eye);
     page.add_fact("eye", Page::text(query.eye));
     shown.push_back(query.eye);

@@ -31,15 +31,18 @@ function goRound() {
     const d = direction(), seen = extent(add(camera.target, times(camera.distance, d)), times(-1, d));
     if (!seen) return;
     camera.target = add(camera.target, add(times(seen.x * camera.distance, seen.right), times(seen.y * camera.distance, seen.up)));
-    camera.distance *= Math.max(0.3, 1.12 * seen.half / Math.tan(camera.field * Math.PI / 360));
+    // No corner comes closer than by nine tenths: what is long and thin along the look would end behind it.
+    camera.distance = Math.max(camera.distance - 0.9 * seen.depth, camera.distance * Math.max(0.3, 1.12 * seen.half / Math.tan(camera.field * Math.PI / 360)));
   }
 }
-/// The tangents that hold all corners as seen from a place: their middle, and half of what they span, in heights of the canvas.
+/// The tangents that hold all corners as seen from a place: their middle, and half of what they span, in heights of the canvas; and how far the nearest corner is.
 function extent(place, ahead) {
   const [right, up] = across(ahead), least = [Infinity, Infinity], most = [-Infinity, -Infinity], from = framed;
+  let nearest = Infinity;
   for (let i = 0; i < from.length; i += 3) {
     const v = minus([from[i], from[i + 1], from[i + 2]], place), depth = dot(v, ahead);
     if (depth <= 0) return null;
+    if (depth < nearest) nearest = depth;
     const x = dot(v, right) / depth, y = dot(v, up) / depth;
     if (x < least[0]) least[0] = x;
     if (x > most[0]) most[0] = x;
@@ -47,7 +50,7 @@ function extent(place, ahead) {
     if (y > most[1]) most[1] = y;
   }
   if (least[0] > most[0]) return null;
-  return {right, up, x: (least[0] + most[0]) / 2, y: (least[1] + most[1]) / 2, half: Math.max((most[1] - least[1]) / 2, (most[0] - least[0]) / 2 / aspect(), 1e-4)};
+  return {right, up, depth: nearest, x: (least[0] + most[0]) / 2, y: (least[1] + most[1]) / 2, half: Math.max((most[1] - least[1]) / 2, (most[0] - least[0]) / 2 / aspect(), 1e-4)};
 }
 /// To the command's eye, with all of the scene in view where that is within 100 degrees.
 function goToEye() {
@@ -55,7 +58,7 @@ function goToEye() {
   camera.atEye = true;
   const ahead = minus(bounds.middle, eyePlace), distance = lengthOf(ahead);
   if (distance > 0) setDirection(ahead);
-  camera.yaw += 0.011, camera.pitch += 0.007;  // along no axis
+  camera.yaw += 0.011, camera.pitch += camera.pitch > 0 ? -0.007 : 0.007;  // along no axis, and not over the top
   camera.field = 85;
   if (distance > 1.3 * bounds.radius) tighten();
 }
@@ -69,11 +72,9 @@ function tighten() {
   }
 }
 function aspect() { return Math.max(0.2, canvas.clientWidth / Math.max(1, canvas.clientHeight)); }
-/// Unit vectors to the right and upwards of one who looks that way.
+/// Unit vectors to the right and upwards of one who looks that way, which is never straight up or down.
 function across(ahead) {
-  let right = cross(ahead, [0, 0, 1]);
-  if (lengthOf(right) < 1e-4) right = [-Math.sin(camera.yaw), Math.cos(camera.yaw), 0].map(x => camera.atEye ? -x : x);
-  right = unit(right);
+  const right = unit(cross(ahead, [0, 0, 1]));
   return [right, cross(right, ahead)];
 }
 function cameraFrame() {

@@ -3,22 +3,43 @@
 const commands = {};
 
 /// Painted back to front.
-commands.order = () => ({
-  beginsAtEye: true,
-  nameOf: k => `polygon ${polygons.number(k) + 1} of ${polygons.of} from the back`,
-  begin() {
-    drawing.painter = true;
-    const last = element('p', {id: 'painted'});
-    const show = n => {
-      drawing.to = n;
-      last.textContent = n > 0 ? `painted last: face ${polygons.faces[n - 1]}` : 'nothing is painted yet';
-      setLines('last', n > 0 && n < polygons.count ? cased([n - 1], 1.5) : [], true);
-      redraw();
-    };
-    section('Back to front', player('how many polygons are painted', 0, polygons.count, polygons.count, show), last,
-      element('p', {className: 'faint'}, 'From the eye each polygon is painted over those before it, without a depth buffer. From elsewhere the order is another one, and a depth buffer decides.'));
-  },
-});
+commands.order = () => {
+  const pairs = wrongNumbers('pairs'), placeOfFace = new Map();
+  polygons.faces.forEach((face, k) => { if (!placeOfFace.has(face)) placeOfFace.set(face, k); });
+  const doubles = plainDoubles({
+    who: 'An order in plain doubles', finds: 'nothing in the wrong place',
+    missing: {set: new Set(pairs.filter((_, i) => i % 2 === 0).sort()), name: 'painted over', words: 'faces painted over though nearer'},
+    extra: {set: new Set(pairs.filter((_, i) => i % 2 === 1).sort()), name: 'painted over nearer ones', words: 'faces painted over nearer ones'},
+  });
+  const goTo = face => { if (placeOfFace.has(face)) select(placeOfFace.get(face)); };
+  return {
+    beginsAtEye: true,
+    colourOf: k => doubles.colourOf(k, false) || colourOfFace(polygons.faces[k]),
+    nameOf: k => `polygon ${polygons.number(k) + 1} of ${polygons.of} from the back`,
+    begin() {
+      drawing.painter = true;
+      const last = element('p', {id: 'painted'});
+      const show = n => {
+        drawing.to = n;
+        last.textContent = n > 0 ? `painted last: face ${polygons.faces[n - 1]}` : 'nothing is painted yet';
+        setLines('last', n > 0 && n < polygons.count ? cased([n - 1], 1.5) : [], true);
+        redraw();
+      };
+      section('Back to front', player('how many polygons are painted', 0, polygons.count, polygons.count, show), last,
+        element('p', {className: 'faint'}, 'From the eye each polygon is painted over those before it, without a depth buffer. From elsewhere the order is another one, and a depth buffer decides.'));
+      doubles.begin();
+    },
+    select(k) {
+      const over = [], under = [];
+      if (k >= 0) for (let i = 0; i < pairs.length; i += 2) {
+        if (pairs[i] === polygons.faces[k]) over.push(pairs[i + 1]);
+        if (pairs[i + 1] === polygons.faces[k]) under.push(pairs[i]);
+      }
+      const name = face => `face ${face}`;
+      return [wrongWith('over', 'plain doubles paint over it, though farther', over, name, goTo), wrongWith('under', 'plain doubles paint it over, though nearer', under, name, goTo)];
+    },
+  };
+};
 
 /// Components, cycles, arcs of a face.
 commands.graph = () => {
@@ -29,6 +50,23 @@ commands.graph = () => {
   let count = 1;
   for (const c of sizes.keys()) count = Math.max(count, c);
   const list = data.arcs ? unpacked(data.arcs) : null, matrix = data.arc_matrix ? unpacked(data.arc_matrix) : null;
+  const nameOfPiece = n => polygons.place(n) === undefined ? 'one that is not drawn' : faceName(polygons.place(n));
+  const wrong = {missing: wrongNumbers('missing'), extra: wrongNumbers('extra')}, allWrong = key => new Set(wrong[key].slice().sort((a, b) => a - b));
+  const doubles = plainDoubles({
+    who: 'A comparison in plain doubles', finds: 'the same arcs', idOf: k => polygons.number(k), nameOf: nameOfPiece,
+    missing: {set: allWrong('missing'), count: wrong.missing.length / 2, name: 'faces of missing arcs', words: 'arcs missing'},
+    extra: {set: allWrong('extra'), count: wrong.extra.length / 2, name: 'faces of arcs that are none', words: 'arcs that are none'},
+  });
+  /// The pieces at the other ends of a piece's wrong arcs.
+  const othersOf = (key, n) => {
+    const others = new Set();
+    for (let i = 0; i < wrong[key].length; i += 2) {
+      if (wrong[key][i] === n) others.add(wrong[key][i + 1]);
+      if (wrong[key][i + 1] === n) others.add(wrong[key][i]);
+    }
+    return others;
+  };
+  const goTo = n => { if (polygons.place(n) !== undefined) select(polygons.place(n)); };
   let inFront = new Set(), behind = new Set(), mode = cycles.length > 0 ? 'cycles' : 'priority', chosen = -1;
   const findArcs = k => {
     inFront = new Set(), behind = new Set();
@@ -46,6 +84,7 @@ commands.graph = () => {
     repaints: true,
     colourOf(k) {
       const c = component[polygons.number(k)];
+      if (doubles.isShown()) return k === selected ? [250, 250, 245] : doubles.colourOf(k, false);
       if (selected >= 0 && (list || matrix)) {
         if (k === selected) return [250, 250, 245];
         if (inFront.has(k) && behind.has(k)) return palette.open;
@@ -76,42 +115,72 @@ commands.graph = () => {
           component.forEach((d, n) => { if (d === chosen && polygons.place(n) !== undefined) members.push(polygons.place(n)); });
           setLines('cycle', cased(members, 1.5), true);
         }));
+      doubles.begin();
     },
     select(k) {
       setLines('cycle', []);
+      const n = polygons.number(k), [missing, extra] = ['missing', 'extra'].map(key => k < 0 ? allWrong(key) : othersOf(key, n));
+      doubles.change(missing, extra);
       if (k < 0) return null;
       if (!list && !matrix) return element('p', {className: 'faint'}, 'Arcs are not known: --arcs writes them out.');
       findArcs(k);
       const names = set => [...set].filter(i => i !== undefined);
       const part = (title, set, colour) => {
-        const swatch = element('span', {className: 'swatch'});
-        swatch.style.background = css(colour);
-        return [element('p', {className: 'row'}, swatch, `${title}: ${set.size}`), listOf(names(set), faceName, i => select(i), 100)];
+        return [element('p', {className: 'row'}, swatchOf(colour), `${title}: ${set.size}`), listOf(names(set), faceName, i => select(i), 100)];
       };
-      return element('div', {id: 'arcs'}, ...part('may be in front of it', inFront, palette.front), ...part('may be behind it', behind, palette.source));
+      return element('div', {id: 'arcs'}, ...part('may be in front of it', inFront, palette.front), ...part('may be behind it', behind, palette.source),
+        ...[wrongWith('arcs-missing', 'with these plain doubles lack an arc', [...missing], nameOfPiece, goTo), wrongWith('arcs-extra', 'with these plain doubles have an arc that is none', [...extra], nameOfPiece, goTo)].filter(Boolean),
+        doubles.errs && missing.size + extra.size === 0 ? element('p', {className: 'faint', id: 'arcs-right'}, 'plain doubles have all of its arcs right') : '');
     },
   };
 };
 
-/// What plain doubles make of the same question, where the page knows: a switch that marks what they miss and what they add, all else in grey.
-function plainDoubles(who) {
-  const [missing, extra] = ['missing', 'extra'].map(key => new Set(data.doubles ? unpacked(data.doubles[key]) : [])), same = missing.size + extra.size === 0;
+/// What plain doubles make of the same question, where the page knows: a switch that marks what they miss and what they add, all else in grey; else why they were not asked.
+///   who, finds         what is said where they are right
+///   missing, extra     the two kinds of errors: `set` of what is marked, its `name` before the list of these, `words` for so many, `count` of them where they are not as many as the set
+///   idOf, nameOf       of a polygon what the sets hold; of that a name
+///   more               what stands beneath
+function plainDoubles({who, finds, missing, extra, idOf = k => polygons.faces[k], nameOf = id => id, more = []}) {
+  const kinds = [missing, extra], countOf = kind => kind.count === undefined ? kind.set.size : kind.count, same = kinds.every(kind => countOf(kind) === 0);
+  const errors = element('p', {className: 'faint', id: 'errors'});
   let shown = false;
+  const names = set => { const all = [...new Set([...set].map(nameOf))]; return all.slice(0, 30).join(', ') + (all.length > 30 ? ' …' : ''); };
+  const tell = () => { errors.textContent = kinds.filter(kind => kind.set.size > 0).map(kind => `${kind.name}: ${names(kind.set)}.`).join(' '); };
   return {
     /// Null where the polygon has its own colour.
     colourOf(k, isBeneath) {
-      const face = polygons.faces[k];
-      return !shown ? null : missing.has(face) ? palette.front : extra.has(face) ? palette.source : isBeneath ? palette.hidden : palette.face;
+      const id = idOf(k), isMissing = missing.set.has(id), isExtra = extra.set.has(id);
+      return !shown ? null : isMissing && isExtra ? palette.open : isMissing ? palette.front : isExtra ? palette.source : isBeneath ? palette.hidden : palette.face;
     },
+    /// From now on these are wrong: at another place, or beside what is selected.
+    change(nextMissing, nextExtra) { missing.set = nextMissing, extra.set = nextExtra, tell(); },
+    isShown: () => shown,
+    errs: !same,
     begin() {
       if (!data.doubles) return;
-      const box = element('input', {type: 'checkbox', id: 'doubles', disabled: same, onchange: () => { shown = box.checked; paint(); }});
-      const names = set => [...set].slice(0, 30).join(', ') + (set.size > 30 ? ' …' : '');
-      section('Plain doubles', same ? element('p', {className: 'faint'}, `${who} finds the same faces.`)
-        : element('label', {className: 'row'}, box, `mark where they err: ${missing.size} visible faces missing, ${extra.size} hidden ones shown`),
-        same ? null : element('p', {className: 'faint', id: 'errors'}, (missing.size ? `missing: ${names(missing)}. ` : '') + (extra.size ? `shown: ${names(extra)}.` : '')));
+      const why = data.doubles.left_out;
+      if (why || same) section('Plain doubles', element('p', {className: 'faint', id: 'not-marked'}, why ? `Not asked: ${why}.` : `${who} finds ${finds}.`));
+      if (why || same) return;
+      const box = element('input', {type: 'checkbox', id: 'doubles', onchange: () => { shown = box.checked; paint(); }});
+      section('Plain doubles', element('label', {className: 'row'}, box, 'mark where they err'),
+        ...[[missing, palette.front], [extra, palette.source]].filter(([kind]) => countOf(kind) > 0).map(([kind, colour]) => element('p', {className: 'row'}, swatchOf(colour), `${countOf(kind)} ${kind.words}`)),
+        errors, ...more);
+      tell();
     },
   };
+}
+/// Numbers of what doubles have wrong.
+function wrongNumbers(key) { return data.doubles && data.doubles[key] ? unpacked(data.doubles[key]) : []; }
+/// Faces that a search of what is visible has wrong.
+function doublesOfVisible(who) {
+  return plainDoubles({
+    who, finds: 'the same faces', missing: {set: new Set(wrongNumbers('missing')), name: 'missing', words: 'visible faces missing'},
+    extra: {set: new Set(wrongNumbers('extra')), name: 'shown', words: 'hidden ones shown'},
+  });
+}
+/// Buttons of faces that a selected one is wrong with, under a title; nothing where there are none.
+function wrongWith(id, title, list, nameOf, act) {
+  return list.length === 0 ? null : element('div', {id}, element('p', {className: 'faint'}, `${title}: ${list.length}`), listOf(list, nameOf, act, 100));
 }
 
 /// Visible parts, lines, the sphere of directions.
@@ -120,7 +189,7 @@ commands.see = () => {
   while (base < polygons.count && polygons.number(base) < data.base) ++base;
   drawing.base = base;
   const from = data.lines, lines = [], width = 1024, height = 512;
-  const doubles = plainDoubles('The same algorithm on plain doubles');
+  const doubles = doublesOfVisible('The same algorithm on plain doubles');
   let showHidden = true, sphere = null, plain = null, middle = 0;
   if (from) {
     const ends = unpacked(from.ends), edges = unpacked(from.edges), kinds = unpacked(from.kinds), hidden = unpacked(from.hidden_by);
@@ -167,7 +236,9 @@ commands.see = () => {
       pen.strokeStyle = colour, pen.lineWidth = wide;
       pen.beginPath();
       for (let s = 0; s <= 48; ++s) {
-        const d = unit(minus(add(times(1 - s / 48, p), times(s / 48, q)), eyePlace));
+        const away = minus(add(times(1 - s / 48, p), times(s / 48, q)), eyePlace);
+        if (lengthOf(away) < 1e-6) continue;  // a corner in the eye is in no direction
+        const d = unit(away);
         let turned = (middle - Math.atan2(d[1], d[0])) / (2 * Math.PI);
         turned -= Math.round(turned);
         const x = (turned + 0.5) * width, y = (0.5 - Math.asin(d[2]) / Math.PI) * height;
@@ -238,7 +309,7 @@ commands.weak = () => {
   });
   const ends = i => [[...sight.ends.subarray(6 * i, 6 * i + 3)], [...sight.ends.subarray(6 * i + 3, 6 * i + 6)]];
   const sightline = i => { const [p, q] = ends(i); return [{from: p, to: q, colour: [...palette.front, 255], width: 3}, ...mark(p, palette.front), ...mark(q, palette.front)]; };
-  const doubles = plainDoubles('A search in plain doubles');
+  const doubles = doublesOfVisible('A search in plain doubles');
   let blockers = new Set(), showAll = false;
   /// Where the part of a walk that begins at a step ends.
   const endOf = step => {
@@ -332,6 +403,20 @@ commands.cutset = () => {
   const from = data.frames, numbers = unpacked(from.numbers), cuts = unpacked(from.cut_edges), tests = unpacked(from.tests), far = unpacked(from.at_infinity), on = unpacked(from.on_view);
   const count = numbers.length, edges = data.edges ? Object.fromEntries(Object.entries(data.edges).map(([key, value]) => [key, unpacked(value)])) : null;
   const isOn = (frame, k) => bit(on, frame * polygons.of + polygons.number(k)) === 1;
+  const wrong = ['missing', 'extra'].map(key => data.doubles && data.doubles[key] ? {begin: unpacked(data.doubles[key].begin), pieces: unpacked(data.doubles[key].pieces)} : {begin: [], pieces: []});
+  const wrongAt = n => wrong.map(({begin, pieces}) => new Set(pieces.slice(begin[n], begin[n + 1])));
+  const errsAt = [...Array(count).keys()].map(n => [n, wrong.reduce((sum, {begin}) => sum + (begin.length > 0 ? begin[n + 1] - begin[n] : 0), 0)]).filter(([, errors]) => errors > 0);
+  const doubles = plainDoubles({
+    who: 'A test of each plane in plain doubles', finds: 'the same faces on-view at all of these viewpoints', idOf: k => polygons.number(k),
+    nameOf: n => polygons.place(n) === undefined ? 'one that is not drawn' : faceName(polygons.place(n)),
+    missing: {set: new Set(), count: wrong[0].pieces.length, name: 'here off-view in doubles', words: 'times an on-view polygon is off-view'},
+    extra: {set: new Set(), count: wrong[1].pieces.length, name: 'here on-view in doubles', words: 'times an off-view one is on-view'},
+    more: [element('p', {className: 'faint'}, `at ${errsAt.length} of ${count} viewpoints:`), listOf(errsAt, ([n, errors]) => `viewpoint ${numbers[n]}: ${errors}`, ([n]) => {
+      const slider = document.getElementById('slider');
+      slider.value = n + 1;
+      slider.dispatchEvent(new Event('input'));
+    })],
+  });
   let frame = 0, follows = false;
   const eyeLines = () => {
     const p = from.places[frame];
@@ -350,7 +435,7 @@ commands.cutset = () => {
   };
   return {
     groupsChange: true,
-    colourOf: k => !isOn(frame, k) ? palette.hidden : frame > 0 && !isOn(frame - 1, k) ? palette.new : palette.seen,
+    colourOf: k => doubles.colourOf(k, !isOn(frame, k)) || (!isOn(frame, k) ? palette.hidden : frame > 0 && !isOn(frame - 1, k) ? palette.new : palette.seen),
     nameOf: k => isOn(frame, k) ? 'on-view' : 'off-view',
     begin() {
       const where = element('p', {id: 'viewpoint'}), what = element('p', {className: 'faint', id: 'frame'});
@@ -361,6 +446,7 @@ commands.cutset = () => {
         where.textContent = `${far[frame >> 3] >> (frame & 7) & 1 ? 'direction' : 'viewpoint'} ${numbers[frame]}: ${from.texts[frame]}`;
         what.textContent = `${faces} polygons on-view${polygons.count < polygons.of ? ' of those drawn' : ''}, ${cuts[frame]} edges in the cut-set, ${tests[frame]} tests`;
         setLines('cut', cutLines());
+        doubles.change(...wrongAt(frame));
         follow();
         paint();
       };
@@ -377,6 +463,7 @@ commands.cutset = () => {
       // The slider shows the first of them at once.
       section('Along the path', player('viewpoint', 1, Math.max(1, count), 1, show), where, what,
         element('label', {className: 'row'}, box, 'look from there'));
+      doubles.begin();
     },
   };
 };

@@ -30,6 +30,11 @@ function element(tag, properties = {}, ...children) {
   made.append(...children.filter(child => child !== null && child !== undefined));
   return made;
 }
+function swatchOf(colour) {
+  const swatch = element('span', {className: 'swatch'});
+  swatch.style.background = css(colour);
+  return swatch;
+}
 const panel = document.getElementById('panel');
 function section(title, ...children) {
   const made = element('section', {}, title ? element('h2', {}, title) : null, ...children);

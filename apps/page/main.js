@@ -65,7 +65,7 @@ function clickAt(x, y) {
   select(hit ? hit.polygon : -1, hit ? hit.place : null);
 }
 
-const selection = element('section', {id: 'selection'});
+const selection = element('section', {id: 'selection', tabIndex: -1});
 /// The outlines of polygons, before all else.
 function outlinesOf(list, colour, width = 2.5) {
   const lines = [];
@@ -86,7 +86,9 @@ function exactCorners(k) {
 }
 function select(k, place = null) {
   selected = k;
+  const isWithin = selection.contains(document.activeElement);  // on a button that goes now: keys go on from here
   selection.replaceChildren();
+  if (isWithin) selection.focus({preventScroll: true});
   setLines('selection', []);
   if (k >= 0) {
     setLines('selection', cased([k]), true);

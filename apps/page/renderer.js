@@ -33,10 +33,19 @@ precision highp float;
 in vec3 from; in vec3 to; in vec4 paint; in vec2 kind;
 uniform mat4 matrix; uniform vec2 size; uniform float bias; uniform float near;
 flat out vec4 colour; flat out float dash; out vec2 along;
+// An end no farther from the canvas than four times its size: of a line that comes from beside the eye the rest is millions of pixels long, and rasterizers lose all of it.
+vec4 brought(vec4 p, vec4 q) {
+  for (int i = 0; i < 4; ++i) {
+    float s = i < 2 ? 1.0 : -1.0, a = 4.0 * p.w - s * p[i & 1], b = 4.0 * q.w - s * q[i & 1];
+    if (a < 0.0 && b > 0.0) p = mix(p, q, a / (a - b));
+  }
+  return p;
+}
 void main() {
   vec4 p = matrix * vec4(from, 1.0), q = matrix * vec4(to, 1.0);
   if (p.w < near) p = mix(p, q, clamp((near - p.w) / max(q.w - p.w, 1e-12), 0.0, 1.0));
   if (q.w < near) q = mix(q, p, clamp((near - q.w) / max(p.w - q.w, 1e-12), 0.0, 1.0));
+  p = brought(p, q), q = brought(q, p);
   vec2 a = p.xy / p.w * size, b = q.xy / q.w * size, d = b - a;
   float l = length(d);
   vec2 normal = l > 1e-6 ? vec2(-d.y, d.x) / l : vec2(0.0, 1.0);

@@ -39,29 +39,14 @@ std::vector<Viewpoint> hard_views(const Polygon_soup& soup, std::size_t count, s
   return views;
 }
 
-/// A node's plane as a program has it in its own numbers: Newell's normal, through the first corner.
-template <class Number>
-std::array<Number, 4> plane_in(const Scene& scene, const Piece& piece) {
-  std::vector<std::array<Number, 3>> corners;
-  for (const Piece_corner& corner : scene.corners(piece)) {
-    const Exact_point p = scene.position(corner.point);
-    corners.push_back({static_cast<Number>(nearest_double(p[0])), static_cast<Number>(nearest_double(p[1])),
-                       static_cast<Number>(nearest_double(p[2]))});
-  }
-  std::array<Number, 4> h{};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto &p = corners[i], &q = corners[(i + 1) % corners.size()];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
-      h[k] += (p[x] - q[x]) * (p[y] + q[y]);
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * corners[0][k];
-  return h;
-}
+/// How many nodes and edges are wrong at a viewpoint, and which nodes are said to be on-view.
+struct Frame_errors {
+  std::size_t count = 0;
+  std::vector<bool> said;
+};
 
 /// Moves to a viewpoint, and gives what counts the errors there, once the time is taken.
-using Count = std::function<std::size_t()>;
+using Count = std::function<Frame_errors()>;
 using Frame_counts = std::function<Count(std::size_t view)>;
 
 struct Cut_set_trial : Trial {
@@ -70,9 +55,14 @@ struct Cut_set_trial : Trial {
   Exact_traits traits;
   std::vector<Viewpoint> views;
   std::vector<std::vector<bool>> truth;
+  bool says;
 
   Cut_set_trial(const Compare_arguments& arguments, const Polygon_soup& soup)
-      : scene(soup), graph(scene), traits(scene), views(hard_views(soup, arguments.random, arguments.common.seed)) {
+      : scene(soup),
+        graph(scene),
+        traits(scene),
+        views(hard_views(soup, arguments.random, arguments.common.seed)),
+        says(arguments.says) {
     for (const Viewpoint& view : views) truth.push_back(on_view_nodes(traits, graph, view));
     const auto add = [&](const char* kernel, const char* method, std::function<Json()> judge) {
       contestants.push_back({{{"kernel", kernel}, {"method", method}}, std::move(judge)});
@@ -112,29 +102,45 @@ struct Cut_set_trial : Trial {
     };
   }
 
-  std::size_t errors(std::size_t k, const std::vector<bool>& on) const {
-    std::size_t wrong_nodes = 0;
-    for (std::size_t node = 0; node < on.size(); ++node) wrong_nodes += on[node] != truth[k][node];
-    return wrong_nodes;
+  Frame_errors errors(std::size_t k, const std::vector<bool>& on) const {
+    Frame_errors errors{0, on};
+    for (std::size_t node = 0; node < on.size(); ++node) errors.count += on[node] != truth[k][node];
+    return errors;
   }
   template <class Tracker>
   Count wrong(std::size_t k, const Tracker& tracker) const {
-    return [this, k, &tracker] { return cut_set_errors(graph, truth[k], tracker); };
+    return [this, k, &tracker] {
+      Frame_errors errors{cut_set_errors(graph, truth[k], tracker), {}};
+      for (std::uint32_t node = 0; node < graph.size(); ++node) errors.said.push_back(tracker.on_view(node));
+      return errors;
+    };
+  }
+
+  /// Faces whose side is wrong at a viewpoint, or which edges of the cut-set are wrong beside.
+  Json wrong_faces(std::size_t k, const Frame_errors& errors) const {
+    std::vector<Face_id> missing, extra;
+    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+      const std::uint32_t node = graph.node(i);
+      const Face_id face = scene.pieces()[i].face;
+      if (truth[k][node] == errors.said[node]) continue;
+      std::vector<Face_id>& faces = truth[k][node] ? missing : extra;
+      if (faces.empty() || faces.back() != face) faces.push_back(face);
+    }
+    return {
+        {"missing", {{"faces", missing}, {"name", "on-view, but not said to be"}}},
+        {"extra", {{"faces", extra}, {"name", "off-view, but said to be on-view"}}},
+        {"at", point_json(views[k].at)},
+        {"words", missing.size() + extra.size() > 0
+                      ? fmt::format("at viewpoint {} of a path: on-view faces missing {}, too many {}", k + 1,
+                                    missing.size(), extra.size())
+                      : fmt::format("at viewpoint {} of a path edges of the cut-set are wrong, and no face", k + 1)}};
   }
 
   template <class Number>
   Frame_counts in_numbers() const {
-    std::vector<std::array<Number, 4>> planes;
-    for (std::uint32_t node = 0; node < graph.size(); ++node)
-      planes.push_back(plane_in<Number>(scene, scene.pieces()[graph.piece(node)]));
-    return [this, planes = std::move(planes)](std::size_t k) -> Count {
-      std::array<Number, 3> eye;
-      for (std::size_t i = 0; i < 3; ++i) eye[i] = static_cast<Number>(nearest_double(views[k].at[i]));
-      std::vector<bool> on(planes.size());
-      for (std::size_t node = 0; node < on.size(); ++node) {
-        const auto& h = planes[node];
-        on[node] = h[0] * eye[0] + h[1] * eye[1] + h[2] * eye[2] + h[3] > 0;
-      }
+    auto planes = std::make_shared<const Rounded_planes<Number>>(graph);
+    return [this, planes](std::size_t k) -> Count {
+      const std::vector<bool> on = planes->on_view(views[k]);
       return [this, k, on] { return errors(k, on); };
     };
   }
@@ -145,16 +151,24 @@ struct Cut_set_trial : Trial {
     const Frame_counts frame = prepare();
     double seconds = watch.seconds();
     std::size_t wrong_frames = 0;
+    Json wrong;
     for (std::size_t k = 0; k < views.size(); ++k) {
       watch = {};
       const Count count = frame(k);
       seconds += watch.seconds();
-      wrong_frames += count() > 0;
+      const Frame_errors errors = count();
+      if (errors.count == 0) continue;
+      ++wrong_frames;
+      // Of the first one, and rather of one where faces are wrong than edges.
+      if (says && (wrong.is_null() || (wrong["missing"]["faces"].empty() && wrong["extra"]["faces"].empty())))
+        wrong = wrong_faces(k, errors);
     }
-    return {{"status", "done"},
-            {"seconds", seconds},
-            {"peak_bytes", memory.bytes()},
-            {"errors", {{"frames", views.size()}, {"wrong_frames", wrong_frames}}}};
+    Json row{{"status", "done"},
+             {"seconds", seconds},
+             {"peak_bytes", memory.bytes()},
+             {"errors", {{"frames", views.size()}, {"wrong_frames", wrong_frames}}}};
+    if (!wrong.is_null()) row["wrong_faces"] = std::move(wrong);
+    return row;
   }
 };
 

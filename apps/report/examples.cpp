@@ -106,21 +106,52 @@ judge::Answer answer_of(judge::Question question, std::size_t faces, const Json&
   return answer;
 }
 
+/// Faces that are wrong, of a question that `judge` does not ask, and its line, if it has one.
+void take_wrong_faces(const Json& wrong, judge::Query& query, judge::Grade& grade, judge::Explanation& why,
+                      Wrong_words& words) {
+  grade.wrong_hidden = wrong["missing"]["faces"].get<std::vector<Face_id>>();
+  grade.wrong_visible = wrong["extra"]["faces"].get<std::vector<Face_id>>();
+  words = {wrong["missing"]["name"].get<std::string>(), wrong["extra"]["name"].get<std::string>()};
+  const auto point = [](const Json& at) { return judge::point_from_json(nlohmann::json(at), "wrong_faces"); };
+  if (wrong.contains("at")) query.eye = point(wrong["at"]);
+  if (!wrong.contains("line")) return;
+  judge::Refutation& line = why.refutation.emplace();
+  line.face = wrong["line"]["face"].get<Face_id>();
+  line.from = point(wrong["line"]["from"]);
+  line.to = point(wrong["line"]["to"]);
+  line.words = wrong["words"].get<std::string>();
+}
+
+/// Why no face is marked where something is wrong.
+std::string words_of_nothing_marked(const std::string& question) {
+  if (question == "order")
+    return "no face is marked: what is wrong is less than 2^-20 of a face, which no picture shows";
+  if (question == "see")
+    return "no face is marked: the faces that it names are right, and shares of its picture are not";
+  return "no face is marked: what is wrong is not about single faces";
+}
+
 /// Draws a wrong case, with the line that refutes the answer where one does, and tells of it.
-void explain_case(const Judge_case& asked, const Json& said, report::Example& example) {
+void explain_case(const Judge_case& asked, const Verdict& verdict, report::Example& example) {
+  judge::Query query = asked.query;
   judge::Grade grade;
   judge::Explanation why;
+  Wrong_words words = words_of_wrong(query.question);
   try {
-    if (!said.is_null()) {
-      const judge::Answer answer = answer_of(asked.query.question, asked.soup.face_count(), said);
-      grade = judge::grade(judge::truth_of(asked.soup, asked.query, {1, 20, true}), answer);
-      if (grade.wrong()) why = judge::explain(asked.soup, asked.query, answer, grade, judge::Contract::exact);
-      if (why.refutation) example.why = why.refutation->words;
+    if (!verdict.said.is_null()) {
+      const judge::Answer answer = answer_of(query.question, asked.soup.face_count(), verdict.said);
+      grade = judge::grade(judge::truth_of(asked.soup, query, {1, 20, true}), answer);
+      if (grade.wrong()) why = judge::explain(asked.soup, query, answer, grade, judge::Contract::exact);
+    } else if (!verdict.wrong_faces.is_null()) {
+      take_wrong_faces(verdict.wrong_faces, query, grade, why, words);
+      example.why = verdict.wrong_faces["words"].get<std::string>();
     }
-    example.picture = picture_of(asked.soup, asked.query, grade, why);
+    if (why.refutation) example.why = why.refutation->words;
+    else if (example.why.empty() && !grade.wrong()) example.why = words_of_nothing_marked(example.who.question);
+    example.picture = picture_of(asked.soup, query, grade, why, words);
     Polygon_soup named = asked.soup;
     named.file = example.file;
-    example.view = view_of("report", example.who.question, named, asked.query, grade, why);
+    example.view = view_of("report", example.who.question, named, query, grade, why, words);
   } catch (const std::exception&) {
     example.picture.clear();  // nothing to see: no point, or numbers beyond those of a picture
   }
@@ -183,7 +214,7 @@ std::optional<report::Example> example_of(const report::Row& row, const Judge_ca
   example.scene = text.str();
   if (witness.asks_by_file()) example.query = judge::to_json(left->query).dump() + "\n";
   example.again = witness.again(*left, name, stem);
-  explain_case(*left, last.said, example);
+  explain_case(*left, last, example);
   return example;
 }
 

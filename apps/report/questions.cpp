@@ -247,6 +247,7 @@ Verdict verdict_of(const Report_question& question, const Trial& trial, const Co
   verdict.seconds = row["seconds"].get<double>() + row.value("prepare", 0.0);
   verdict.peak_bytes = row["peak_bytes"].get<std::uint64_t>();
   if (row.contains("said")) verdict.said = row["said"];
+  if (row.contains("wrong_faces")) verdict.wrong_faces = row["wrong_faces"];
   verdict.broken = promises && row.contains("errors") && !trial.right(row);
   if (verdict.broken) verdict.kind = Verdict::wrong;
   if (verdict.kind != Verdict::not_asked && verdict.seconds > limits.seconds) verdict.kind = Verdict::stopped;

@@ -37,7 +37,9 @@ struct Verdict {
   double seconds = 0;
   std::uint64_t peak_bytes = 0;
   bool broken = false;  ///< it claims to be exact, and its answer is not what that promises
-  Json said = nullptr;  ///< the answer, where the arguments ask for it; or null
+  /// The answer, and of questions that `judge` does not ask the faces that it has wrong (Compare_arguments::says),
+  /// where the arguments ask for it; or null.
+  Json said = nullptr, wrong_faces = nullptr;
 };
 
 struct Report_question {

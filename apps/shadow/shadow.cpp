@@ -139,10 +139,7 @@ Told_volume write_volume(const Shadow_arguments& arguments, const Scene& scene, 
       "{} faces, {:.3f} seconds{}{}",
       digits_of(size, 6), made.casting, flat.face_count(), since.seconds(), rounding ? "; rounded: " : "",
       rounding ? rounding_text(*rounding) : "");
-  if (!rounding && !is_read_by_all(flat))
-    told.warning = fmt::format(
-        "its points have a common denominator of more than {} bits: commands read {} with --coordinates double only",
-        largest_common_denominator_bits, arguments.volume);
+  if (!rounding) told.warning = warning_of_denominator(flat, arguments.volume);
   return told;
 }
 

@@ -2,6 +2,8 @@
 
 #include "page_sources.h"
 
+#include <sightline/harness/report/page.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -61,6 +63,22 @@ Json packed(const std::vector<bool>& bits) {
     if (bits[i]) bytes[i / 8] = static_cast<char>(static_cast<unsigned char>(bytes[i / 8]) | 1u << i % 8);
   return packed_as("u8", bytes);
 }
+
+// ---- What doubles make of it
+
+Json asked_of_doubles(const Time_limit& limit, const std::function<Json(const Report& report)>& ask) {
+  Progress bar("what doubles make of it");
+  try {
+    return ask([&](std::size_t done, std::size_t all) {
+      if (limit.is_over()) throw Out_of_budget("");
+      bar(done, all);
+    });
+  } catch (const Out_of_budget&) {
+    return doubles_left_out(fmt::format("the budget of {} s ran out", limit.seconds()));
+  }
+}
+
+Json doubles_left_out(const std::string& why) { return {{"left_out", why}}; }
 
 // ---- What is put together
 
@@ -215,6 +233,10 @@ Json Page::data() {
   if (triangles_ > most_triangles_) keep_the_largest(most_triangles_);
   const bool is_thinned = kept_.size() < added_;
   if (is_thinned) add_note(fmt::format("thinned: of {} polygons the {} largest are drawn", added_, kept_.size()));
+  const auto is_point = [](const Polygon& polygon) { return polygon.area == 0; };
+  if (const auto points = std::count_if(kept_.begin(), kept_.end(), is_point); points > 0)
+    add_note(fmt::format("{} of the polygons {} too small beside the scene to be drawn", points,
+                         points == 1 ? "is" : "are"));
   if (!keeps_texts_) add_note("coordinates are rounded: those of so many corners would take too much of a page");
 
   Json data{{"format", "sightline page 1"},
@@ -262,22 +284,14 @@ std::string page_around(std::string_view data) {
 
 }  // namespace
 
-std::string in_page(const Json& data) {
-  std::string text;
-  for (const char c : data.dump(-1, ' ', false, Json::error_handler_t::replace))
-    if (c == '<') text += "\\u003c";
-    else text += c;
-  return text;
-}
-
 std::string scenes_within() {
   return fmt::format(
       "<style>\n{}</style>\n<script type=\"application/json\" id=\"viewer\">{}</script>\n<script>\n'use "
       "strict';\n(function "
       "() {{\n{}}}());\n</script>\n",
-      turn_style, in_page(page_around(data_mark)), turn_script);
+      turn_style, report::in_element(page_around(data_mark)), turn_script);
 }
 
-void Page::write(const std::string& file) { write_file(file, page_around(in_page(data()))); }
+void Page::write(const std::string& file) { write_file(file, page_around(report::in_element(data()))); }
 
 }  // namespace sightline::app

@@ -24,13 +24,17 @@ Json packed(const std::vector<float>& numbers);
 /// Bits, the first the lowest of its byte: {"type": "u8", ...}.
 Json packed(const std::vector<bool>& bits);
 
-/// JSON as it stands in an element of a page: no tag begins or ends in it.
-std::string in_page(const Json& data);
-
 /// What stands at the end of a page of another kind, so that its scenes can be turned around: the text of pages, once,
 /// and what puts data() of Page into it where a button with `data-view="N"` asks for the N-th of the array in the
 /// element `views`.
 std::string scenes_within();
+
+/// What stands under `doubles` in a page: what `ask` makes of an exact answer in plain doubles, while a bar of its own
+/// says how far it is. Once the limit, that of the exact answer, is over, what `ask` tells ends it, and the page says
+/// so instead: the exact answer stands.
+Json asked_of_doubles(const Time_limit& limit, const std::function<Json(const Report& report)>& ask);
+/// The same where doubles are not asked: why, in words that go on "Not asked: ".
+Json doubles_left_out(const std::string& why);
 
 /// A page as it is put together. Its places are (x - middle) / size for the middle of the scene's box and a power of
 /// two, so that scenes far away, and of any size, keep what a float can hold.

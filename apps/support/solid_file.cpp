@@ -52,11 +52,15 @@ std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::
   }
 }
 
-bool is_read_by_all(const Polygon_soup& soup) {
+std::string warning_of_denominator(const Polygon_soup& soup, const std::string& file, const std::string& reads_it) {
   Common_denominator common;  // as its reader asks
   for (std::size_t k = 0; k < soup.coordinates.size(); ++k)
-    if (!common.include(soup.coordinates[k].get_den())) return false;
-  return true;
+    if (!common.include(soup.coordinates[k].get_den()))
+      return fmt::format("its points have a common denominator of more than {} bits: {} with --coordinates double{}",
+                         largest_common_denominator_bits,
+                         reads_it.empty() ? "commands read " + file : reads_it + " reads " + file + ", other commands",
+                         reads_it.empty() ? " only" : "");
+  return "";
 }
 
 Json rounding_json(const Rounded_surface& near) {

@@ -20,8 +20,9 @@ Check solid_ending();
 std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap,
                                            const Rounding_progress& progress = {});
 
-/// Whether all commands read a .qoff of a surface: its common denominator is short enough.
-bool is_read_by_all(const Polygon_soup& soup);
+/// Of a .qoff of a surface whose common denominator is too long for commands: that, and how they read it; the one that
+/// reads it as it is, if there is one, by its name. Else empty.
+std::string warning_of_denominator(const Polygon_soup& soup, const std::string& file, const std::string& reads_it = "");
 
 Json rounding_json(const Rounded_surface& near);
 std::string rounding_text(const Rounded_surface& near);

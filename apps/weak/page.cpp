@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace sightline::app {
 
@@ -71,8 +72,13 @@ std::vector<Face_id> in_both(const std::vector<Face_id>& faces, const std::vecto
 
 }  // namespace
 
+Json doubles_json(const Weakly_visible& found, const Weakly_visible& doubles) {
+  return {{"missing", packed(in_both(found.visible, doubles.hidden))},
+          {"extra", packed(in_both(found.hidden, doubles.visible))}};
+}
+
 void write_page(const Weak_arguments& arguments, const Scene& scene, const Sources& sources,
-                const Weakly_visible& found, const std::vector<std::string>& names, const Weakly_visible* doubles) {
+                const Weakly_visible& found, const std::vector<std::string>& names, Json doubles) {
   static const std::vector<std::string> groups{"visible", "hidden", "undecided", "source"};
   Page page("weak", scene);
   page.add_fact("faces", fmt::format("{}", scene.counters().faces));
@@ -92,9 +98,7 @@ void write_page(const Weak_arguments& arguments, const Scene& scene, const Sourc
   for (const std::vector<Exact_point>& source : sources.points) page.add_polygon(Page::no_face, source, 3);
   page.more()["sightlines"] = sightlines_json(page, scene, found);
   page.more()["proofs"] = proofs_json(page, found);
-  if (doubles != nullptr)
-    page.more()["doubles"] = {{"missing", packed(in_both(found.visible, doubles->hidden))},
-                              {"extra", packed(in_both(found.hidden, doubles->visible))}};
+  page.more()["doubles"] = std::move(doubles);
   page.write(arguments.html);
 }
 

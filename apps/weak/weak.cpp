@@ -4,6 +4,7 @@
 
 #include "../methods/along.h"
 #include "../support/drawing.h"
+#include "../support/page.h"
 #include "outputs.h"
 #include "page.h"
 #include "picture.h"
@@ -60,8 +61,8 @@ void check_usage(const Weak_arguments& arguments) {
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
 }
 
-/// What the method is asked, its budget from now on: some leave open what they have no time for, others end.
-Weak_task task_of(const Weak_arguments& arguments, const Report& report) {
+/// What the method is asked, within a limit: some leave open what they have no time for, others end.
+Weak_task task_of(const Weak_arguments& arguments, const Time_limit& limit, const Report& report) {
   const Common& common = arguments.common;
   Weak_task task = arguments.task;
   task.two_sided = arguments.sources.two_sided;
@@ -69,22 +70,30 @@ Weak_task task_of(const Weak_arguments& arguments, const Report& report) {
   task.seed = common.seed;
   task.surfaces = !arguments.surfaces.empty();
   const bool leaves_open = arguments.method == "lines" || arguments.method == "events";
-  if (leaves_open) task.out_of_time = Time_limit(common.budget).end();
+  if (leaves_open) task.out_of_time = limit.end();
   task.progress = leaves_open ? report : common.within_budget(report);
   return task;
 }
 
-/// What a search in doubles makes of the same, for the page of an exact answer; with a budget there is no time for it.
-std::optional<Weakly_visible> found_by_doubles(Weak_arguments arguments, const Occluders& occluders,
-                                               const Sources& sources) {
-  if ((arguments.method != "lines" && arguments.method != "events") || arguments.common.budget > 0) return std::nullopt;
-  arguments.method = "doubles";
-  return run_weak_method(arguments.method, occluders, sources, task_of(arguments, {})).found;
+/// What a search in doubles makes of an exact answer, for its page.
+Json made_by_doubles(Weak_arguments arguments, const Occluders& occluders, const Sources& sources,
+                     const Weakly_visible& found, const Time_limit& limit) {
+  if (arguments.method != "lines" && arguments.method != "events")
+    return doubles_left_out(fmt::format("by {} the answer is not exact itself", arguments.method));
+  return asked_of_doubles(limit, [&](const Report& report) {
+    arguments.method = "doubles";
+    Weak_task task = task_of(arguments, limit, {});
+    task.progress = report;
+    task.out_of_time = limit.end();
+    const Weakly_visible doubles = run_weak_method(arguments.method, occluders, sources, task).found;
+    report(1, 1);  // what they had no time for is not theirs
+    return doubles_json(found, doubles);
+  });
 }
 
-/// The certificate, surfaces, pictures and the page, where they are asked for.
+/// The certificate, surfaces, pictures and the page, where they are asked for; `limit`: of the answer.
 void write_outputs(const Weak_arguments& arguments, const Polygon_soup& soup, const Occluders& occluders,
-                   const Sources& sources, const Weak_outcome& outcome) {
+                   const Sources& sources, const Weak_outcome& outcome, const Time_limit& limit) {
   const Scene& scene = occluders.scene();
   const Weakly_visible& found = outcome.found;
   if (!arguments.certificate.empty())
@@ -99,10 +108,8 @@ void write_outputs(const Weak_arguments& arguments, const Polygon_soup& soup, co
   if (!arguments.svg.empty()) draw(arguments, soup, occluders, sources, names);
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(scene, sources, names));
-  if (!arguments.html.empty()) {
-    const std::optional<Weakly_visible> doubles = found_by_doubles(arguments, occluders, sources);
-    write_page(arguments, scene, sources, found, names, doubles ? &*doubles : nullptr);
-  }
+  if (!arguments.html.empty())
+    write_page(arguments, scene, sources, found, names, made_by_doubles(arguments, occluders, sources, found, limit));
 }
 
 Json counters_of(const Weak_outcome& outcome) {
@@ -190,14 +197,15 @@ Exit run_weak(const Weak_arguments& arguments) {
   const double prepare_seconds = watch.seconds();
   Progress progress("searching");
   watch = {};
+  const Time_limit limit(common.budget);
   const Weak_outcome outcome =
       run_weak_method(arguments.method, occluders, sources,
-                      task_of(arguments, [&](std::size_t done, std::size_t all) { progress(done, all); }));
+                      task_of(arguments, limit, [&](std::size_t done, std::size_t all) { progress(done, all); }));
   const double seconds = watch.seconds();
   progress.clear();
 
   // 2. What is written and told of it.
-  write_outputs(arguments, soup, occluders, sources, outcome);
+  write_outputs(arguments, soup, occluders, sources, outcome, limit);
   const Exit exit = outcome.found.undecided.empty() ? Exit::done : Exit::undecided;
   if (write_json(common, "weak", scene, result_json(arguments, occluders, sources, outcome), counters_of(outcome),
                  {{"prepare", prepare_seconds}, {"search", seconds}}))

@@ -31,4 +31,46 @@ std::size_t cut_set_errors(const Face_graph& graph, const std::vector<bool>& tru
   return wrong;
 }
 
+template <class Number>
+static std::array<Number, 3> rounded_to(const Exact_point& p) {
+  return {static_cast<Number>(nearest_double(p[0])), static_cast<Number>(nearest_double(p[1])),
+          static_cast<Number>(nearest_double(p[2]))};
+}
+
+template <class Number>
+Rounded_planes<Number>::Rounded_planes(const Face_graph& graph) {
+  const Scene& scene = graph.scene();
+  std::vector<std::array<Number, 3>> corners;
+  planes_.reserve(graph.size());
+  for (std::uint32_t node = 0; node < graph.size(); ++node) {
+    corners.clear();
+    for (const Piece_corner& corner : scene.corners(scene.pieces()[graph.piece(node)]))
+      corners.push_back(rounded_to<Number>(scene.position(corner.point)));
+    std::array<Number, 4> h{};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto &p = corners[i], &q = corners[(i + 1) % corners.size()];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
+        h[k] += (p[x] - q[x]) * (p[y] + q[y]);
+      }
+    }
+    for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * corners[0][k];
+    planes_.push_back(h);
+  }
+}
+
+template <class Number>
+std::vector<bool> Rounded_planes<Number>::on_view(const Viewpoint& view) const {
+  const std::array<Number, 3> at = rounded_to<Number>(view.at);
+  std::vector<bool> on(planes_.size());
+  for (std::size_t node = 0; node < on.size(); ++node) {
+    const auto& h = planes_[node];
+    on[node] = h[0] * at[0] + h[1] * at[1] + h[2] * at[2] + (view.at_infinity ? Number(0) : h[3]) > 0;
+  }
+  return on;
+}
+
+template class Rounded_planes<float>;
+template class Rounded_planes<double>;
+
 }  // namespace sightline

@@ -17,7 +17,7 @@ Image_errors image_errors(const Scene& scene, const Piece_image& truth, const Pi
   Image_errors errors;
   errors.pixels = truth.pieces.size();
   std::vector<std::uint64_t> pixels(scene.counters().faces_read);  // of each face, where it is true
-  std::vector<bool> shown(pixels.size());
+  std::vector<bool> shown(pixels.size()), is_covered(pixels.size()), is_wrong(pixels.size());
   for (std::size_t i = 0; i < truth.pieces.size(); ++i) {
     const Face_id expected = face(truth.pieces[i]), found = face(image.pieces[i]);
     if (found != nothing) shown[found] = true;
@@ -25,8 +25,15 @@ Image_errors image_errors(const Scene& scene, const Piece_image& truth, const Pi
       ++errors.tied;
       continue;
     }
-    errors.wrong += expected != found;
     if (expected != nothing) ++pixels[expected];
+    if (expected == found) continue;
+    ++errors.wrong;
+    if (expected != nothing) is_covered[expected] = true;
+    if (found != nothing) is_wrong[found] = true;
+  }
+  for (Face_id f = 0; f < pixels.size(); ++f) {
+    if (is_covered[f]) errors.covered.push_back(f);
+    if (is_wrong[f]) errors.shown.push_back(f);
   }
   for (std::size_t f = 0; f < pixels.size(); ++f) {
     if (pixels[f] == 0 || shown[f]) continue;

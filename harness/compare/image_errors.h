@@ -19,6 +19,8 @@ struct Image_errors {
   std::uint64_t wrong = 0;            ///< show another face than the truth, or none, or one where there is none
   std::uint64_t missing = 0;          ///< faces that the truth shows, off ties, and the image nowhere
   std::uint64_t largest_missing = 0;  ///< the pixels of the one with most
+  std::vector<Face_id> covered;       ///< faces that some wrong pixel ought to show; sorted
+  std::vector<Face_id> shown;         ///< faces that some wrong pixel shows; sorted
 };
 
 /// Against the truth, which says what is tied. Pre: both of one size. Exact: yes.

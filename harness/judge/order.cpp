@@ -26,7 +26,11 @@ Order_truth::Order_truth(const Scene& scene, const Exact_point& eye, bool two_si
 Grade Order_truth::grade(const Answer& answer) const {
   Grade grade;
   std::set<Face_id> shown, hidden;
-  judge_pairs(answer, grade, shown, hidden);
+  grade.wrong_pairs = wrong_pairs(answer);
+  for (const auto& [earlier, later] : grade.wrong_pairs) {
+    hidden.insert(earlier);
+    shown.insert(later);
+  }
   judge_areas(answer, grade, shown, hidden);
   grade.wrong_visible.assign(shown.begin(), shown.end());
   grade.wrong_hidden.assign(hidden.begin(), hidden.end());
@@ -107,8 +111,7 @@ void Order_truth::find_cycle() {
   has_cycle_ = drawn < faces_.size();
 }
 
-void Order_truth::judge_pairs(const Answer& answer, Grade& grade, std::set<Face_id>& shown,
-                              std::set<Face_id>& hidden) const {
+std::vector<std::array<Face_id, 2>> Order_truth::wrong_pairs(const Answer& answer) const {
   std::vector<order_check::Cone> cones;
   std::vector<std::size_t> place;  // in the order
   for (std::size_t i = 0; i < answer.order.size(); ++i) {
@@ -130,12 +133,9 @@ void Order_truth::judge_pairs(const Answer& answer, Grade& grade, std::set<Face_
   order_check::Pair_check check;
   each_pair(cones, [&](std::size_t i, std::size_t j) {
     if (place[i] >= place[j] || !check.nearer_somewhere(cones[i], cones[j])) return;
-    const Face_id earlier = answer.order[place[i]].face, later = answer.order[place[j]].face;
-    wrong.insert({earlier, later});
-    hidden.insert(earlier);
-    shown.insert(later);
+    wrong.insert({answer.order[place[i]].face, answer.order[place[j]].face});
   });
-  grade.wrong_pairs.assign(wrong.begin(), wrong.end());
+  return {wrong.begin(), wrong.end()};
 }
 
 void Order_truth::judge_areas(const Answer& answer, Grade& grade, std::set<Face_id>& shown,

@@ -32,6 +32,10 @@ class Order_truth {
   /// Pre: faces of the answer are below the scene's number of faces. Cost: about O(n log n) and the pairs that overlap.
   Grade grade(const Answer& answer) const;
 
+  /// The wrong pairs alone, sorted: drawn earlier but nearer somewhere, and what is drawn over it. What is missing, or
+  /// out of its face, is not looked for, which takes long where a face is in hundreds of parts.
+  std::vector<std::array<Face_id, 2>> wrong_pairs(const Answer& answer) const;
+
  private:
   static constexpr int tolerance_bits = 20;  // of parts: what a picture does not show
 
@@ -53,8 +57,6 @@ class Order_truth {
   static void each_pair(const std::vector<order_check::Cone>& cones, Take take);
 
   void find_cycle();
-
-  void judge_pairs(const Answer& answer, Grade& grade, std::set<Face_id>& shown, std::set<Face_id>& hidden) const;
 
   /// Faces that are missing, in part or altogether, and parts that reach out of their faces.
   void judge_areas(const Answer& answer, Grade& grade, std::set<Face_id>& shown, std::set<Face_id>& hidden) const;

@@ -45,15 +45,6 @@ std::size_t place_of(const std::string& question, const std::vector<Question>& q
   return static_cast<std::size_t>(found - questions.begin());
 }
 
-/// JSON as it stands in an element of a page: no tag begins or ends in it.
-std::string in_element(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))
-    if (c == '<') text += "\\u003c";
-    else text += c;
-  return text;
-}
-
 /// Scenes to turn around: of the examples with the smallest, as many as there is room for, by their numbers; of the
 /// others null.
 Json views_json(const std::vector<Example>& examples) {
@@ -154,6 +145,14 @@ Json page_data(const Report& report, const Json& views) {
 }
 
 }  // namespace
+
+std::string in_element(const Json& json) {
+  std::string text;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace))
+    if (c == '<') text += "\\u003c";
+    else text += c;
+  return text;
+}
 
 std::string report_page(const Report& report, const std::string& viewer) {
   const Json views = viewer.empty() ? Json::array() : views_json(report.examples);

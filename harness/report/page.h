@@ -7,6 +7,9 @@
 
 namespace sightline::report {
 
+/// JSON as it stands in an element of a page, of a report or not: no tag begins or ends in it.
+std::string in_element(const Json& json);
+
 /// One self-contained HTML file, with plots that answer to the pointer; without a network. Rows beyond 30,000 are left
 /// out evenly and counted on it; tables and examples are of all. `viewer`: what stands at its end and opens scenes that
 /// a button with `data-view` asks for, of the element `views`, as scenes_within() of the program does; without it there

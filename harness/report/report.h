@@ -55,10 +55,10 @@ struct Example {
   double error = 0;
   std::string file, scene;  ///< a name, and what the file holds: OFF with exact coordinates
   std::string query;        ///< the same of a program's query; empty where the command line says it
-  std::string why;          ///< what refutes the answer, in words; empty where nothing does by itself
-  std::string again;        ///< the command that shows the error, beside the file
-  std::string picture;      ///< SVG
-  Json view = nullptr;      ///< the scene to turn around: the data of a page (apps/page); null: none
+  std::string why;      ///< what refutes the answer, or why no face of it is marked, in words; empty where nothing does
+  std::string again;    ///< the command that shows the error, beside the file
+  std::string picture;  ///< SVG
+  Json view = nullptr;  ///< the scene to turn around: the data of a page (apps/page); null: none
 };
 
 /// What a question's error is a share of, for people.

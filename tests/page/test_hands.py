@@ -80,6 +80,43 @@ def test_nobody_goes_over_the_top_nor_out_of_sight(open_page):
             assert page.js("const v = document.getElementById('view'); return sightline.pickAt(v.clientWidth / 2, v.clientHeight / 2)") >= 0, "the scene is in the middle"
 
 
+def test_a_rod_along_the_look_is_looked_at_from_outside(open_page, tmp_path):
+    """Fifty times as long as it is wide, and seen from its end at first."""
+    away = [x / math.sqrt(0.36 + 1.21 + 0.49) for x in (-0.6, -1.1, 0.7)]
+    right = [away[1] / math.hypot(*away[:2]), -away[0] / math.hypot(*away[:2]), 0.0]
+    up = [right[(k + 1) % 3] * away[(k + 2) % 3] - right[(k + 2) % 3] * away[(k + 1) % 3] for k in range(3)]
+    rod = tmp_path / "rod.obj"
+    rod.write_text("".join("v " + " ".join(f"{s * away[k] + a * right[k] + b * up[k]:.4f}" for k in range(3)) + "\n"
+                           for s in (-50, 50) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+                   + "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
+    page = open_page("graph", rod)
+    places = page.js("return arguments[0].map(sightline.onCanvas)", corners_of(page))
+    width, height = page.js("const v = document.getElementById('view'); return [v.clientWidth, v.clientHeight]")
+    assert all(at and 0 < at[0] < width and 0 < at[1] < height for at in places)
+
+
+@pytest.mark.parametrize("height", ["1/4", "3/4"])
+def test_an_eye_straight_below_or_above_the_middle_does_not_look_over_the_top(open_page, height):
+    page = open_page("see", cube, "--eye=1/2,1/2," + height)
+    before = page.js(camera)
+    page.press("ArrowLeft")
+    after = page.js(camera)
+    assert abs(before[1]) > 1.5 and before[1] == after[1], "to turn aside is not to turn upside down"
+
+
+def test_keys_go_on_from_where_a_button_was(open_page, browser):
+    from selenium.webdriver.common.keys import Keys
+
+    page = open_page("graph", corpus / "general" / "cyclic_bars.off" if (corpus / "general" / "cyclic_bars.off").exists() else rooms)
+    page.js("sightline.select(0)")
+    page.one("#arcs ul.list button").send_keys(Keys.ENTER)
+    assert page.js("return document.activeElement.id") == "selection" and page.js("return sightline.selected") != 0
+    browser.switch_to.active_element.send_keys(Keys.TAB)
+    assert page.js("return document.getElementById('selection').contains(document.activeElement) && document.activeElement.tagName") == "BUTTON"
+    page.js("sightline.select(-1)")
+    assert page.js("return document.activeElement.id") in ("selection", ""), "what is clicked elsewhere takes no focus"
+
+
 def test_a_trembling_hand_clicks_and_the_right_one_does_not(open_page):
     page = open_page("graph", cube)
     begun = page.js(camera)

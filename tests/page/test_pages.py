@@ -445,6 +445,219 @@ def test_where_a_search_in_doubles_errs_is_marked(open_page, tmp_path):
     assert page.one("#panel").text.count("A search in plain doubles finds the same faces") == 1
 
 
+def generated(tmp_path, family, seed):
+    """A scene of a family, and its eye."""
+    scene, query = tmp_path / f"{family}{seed}.qoff", tmp_path / f"{family}{seed}.json"
+    run("generate", family, "--seed", seed, "--out", scene, "--query", query)
+    return scene, "--eye=" + ",".join(json.loads(query.read_text())["eye"])
+
+
+def test_the_pairs_that_an_order_in_doubles_has_wrong_are_marked_and_named(open_page, tmp_path):
+    scene, place = generated(tmp_path, "exponents", 2)
+    page = open_page("order", scene, place)
+    numbers = page.numbers("doubles", "pairs")
+    pairs = list(zip(numbers[::2], numbers[1::2]))
+    compared = json.loads(run("compare", scene, "order", place, "--kernels", "double", "--json", "-"))["result"]["rows"][0]
+    assert len(pairs) == compared["errors"]["pairs_wrong"] > 1
+    covered, over = {a for a, _ in pairs}, {b for _, b in pairs}
+    assert covered - over and over - covered
+    assert f"{len(covered)} faces painted over though nearer" in page.text("#panel") and f"{len(over)} faces painted over nearer ones" in page.text("#panel")
+    faces = page.numbers("polygons", "faces")
+    own = [looks_of(page, k) for k in range(len(faces))]
+    page.one("#doubles").click()
+    assert has_colours(page, {k: undecided if face in covered & over else front if face in covered else source if face in over else face_colour
+                              for k, face in enumerate(faces)})
+    # A face that is picked names those it is wrong with; who clicks one of them picks that.
+    for face in sorted(covered | over):
+        page.js("sightline.select(arguments[0])", faces.index(face))
+        for part, wanted in (("#over", sorted(b for a, b in pairs if a == face)), ("#under", sorted(a for a, b in pairs if b == face))):
+            assert [b.text for b in page.all(f"{part} button")] == [f"face {other}" for other in wanted]
+    for face in sorted(covered | over):
+        page.js("sightline.select(arguments[0])", faces.index(face))
+        other = page.one("#over button, #under button")
+        name = other.text
+        other.click()
+        assert page.text("#selected-name").split(",")[0] == name
+    page.js("sightline.select(arguments[0])", faces.index(min({*faces} - covered - over)))
+    assert not page.all("#over, #under")
+    page.one("#doubles").click()
+    assert [looks_of(page, k) for k in range(len(faces))] == own
+    graph = open_page("order", scene, place, "--method", "graph", name="graph.html")
+    assert 0 < len(graph.numbers("doubles", "pairs")) < len(numbers), "by the graph faces that are seen from behind are in no pair"
+
+
+@pytest.mark.parametrize("words, said", [
+    (["order", corpus / "general" / "cube.off", "--eye=3,4,5"], "An order in plain doubles finds nothing in the wrong place."),
+    (["order", corpus / "general" / "cube.off", "--eye=3,4,5", "--method", "graph"], "An order in plain doubles finds nothing in the wrong place."),
+    (["order", corpus / "general" / "cube.off", "--eye=3,4,5", "--kernel", "float"], "Not asked: by --kernel float the order is not exact itself."),
+    (["graph", corpus / "general" / "cube.off"], "A comparison in plain doubles finds the same arcs."),
+    (["graph", corpus / "general" / "cube.off", "--eye", "3,4,5"], "Not asked: the viewpoints are not all."),
+    (["cutset", corpus / "general" / "cube.off", "--orbit", 5], "A test of each plane in plain doubles finds the same faces on-view at all of these viewpoints."),
+    (["weak", corpus / "general" / "cube.off", "--from-face", 0, "--budget", 1000], "A search in plain doubles finds the same faces."),
+    (["weak", corpus / "general" / "cube.off", "--from-face", 0, "--method", "sample"], "Not asked: by sample the answer is not exact itself."),
+    (["see", corpus / "general" / "cube.off", "--eye=3,4,5", "--budget", 1000], "The same algorithm on plain doubles finds the same faces."),
+    (["see", corpus / "general" / "cube.off", "--eye=3,4,5", "--frustum"], "Not asked: they look in all directions, and --frustum does not."),
+], ids=lambda word: None)
+def test_where_nothing_is_marked_the_page_says_why(open_page, words, said):
+    page = open_page(*words)
+    assert page.text("#not-marked") == said and not page.all("#doubles")
+
+
+def test_doubles_are_left_out_where_they_would_take_long(open_page, tmp_path, town):
+    soup = tmp_path / "soup.off"
+    run("generate", "soup", "--size", 2001, "--out", soup)
+    assert open_page("order", soup, "--eye=0,0,9").text("#not-marked") == "Not asked: of more than 4000 parts all pairs would take too long."
+    assert open_page("graph", soup, name="graph.html").text("#not-marked") == "Not asked: the arcs are not known."
+    # Where the budget ends before: the exact answer, which has nothing decided.
+    page = open_page("weak", town, "--from-face", 3, "--budget", "0.000001", code=4, name="weak.html")
+    assert page.text("#not-marked").startswith("Not asked: the budget of ") and page.text("#not-marked").endswith(" s ran out.")
+
+
+def test_arcs_that_doubles_lack_or_invent_are_marked(open_page, tmp_path, town):
+    scene, _ = generated(tmp_path, "exponents", 2)
+    for words, key, colour, of in (([scene], "missing", front, "#arcs-missing"), ([town], "extra", source, "#arcs-extra")):
+        page = open_page("graph", *words, name=f"{key}.html")
+        arcs = {(a[0], b[0]) for a, b in json.loads(run("graph", *words, "--arcs", "--json", "-"))["result"]["arc_list"]}
+        numbers = page.numbers("doubles", key)
+        wrong = list(zip(numbers[::2], numbers[1::2]))
+        other = page.numbers("doubles", "extra" if key == "missing" else "missing")
+        assert wrong and not other and {*wrong} <= arcs if key == "missing" else not {*wrong} & arcs
+        words_of = "arcs missing" if key == "missing" else "arcs that are none"
+        assert [p.text for p in page.all("#panel p.row") if "arcs" in p.text] == [f"{len(wrong)} {words_of}"]
+        count = page.data["polygons"]["count"]
+        page.one("#doubles").click()
+        marked = {k for arc in wrong for k in arc}
+        assert has_colours(page, {k: colour if k in marked else face_colour for k in range(count)})
+        # Of a face that is picked, those at the other ends.
+        one = wrong[0][0]
+        page.js("sightline.select(arguments[0])", one)
+        ends = {b if a == one else a for a, b in wrong if one in (a, b)}
+        assert has_colours(page, {k: (250, 250, 245) if k == one else colour if k in ends else face_colour for k in range(count)})
+        assert {b.text for b in page.all(f"{of} button")} == {f"face {k}" for k in ends}
+        page.js("sightline.select(-1)")
+        assert has_colours(page, {k: colour if k in marked else face_colour for k in range(count)})
+
+
+def on_view_in_doubles(points, faces, at):
+    """By the sign of each height in Python's floats: Newell's normal, through the first corner."""
+    on = set()
+    for face, loop in enumerate(faces):
+        corners, h = [points[p] for p in loop], [0.0] * 4
+        for p, q in zip(corners, corners[1:] + corners[:1]):
+            for k in range(3):
+                x, y = (k + 1) % 3, (k + 2) % 3
+                h[k] += (p[x] - q[x]) * (p[y] + q[y])
+        for k in range(3):
+            h[3] -= h[k] * corners[0][k]
+        if h[0] * at[0] + h[1] * at[1] + h[2] * at[2] + h[3] > 0:
+            on.add(face)
+    return on
+
+
+def test_faces_that_doubles_take_for_on_view_are_marked_as_the_path_is_played(open_page, tmp_path, town):
+    lines = [line.split() for line in town.read_text().splitlines() if line.strip() and not line.startswith("#")]
+    count = int(lines[1][0])
+    corners = lines[2:2 + count]
+    points = [[float(Fraction(x)) for x in corner] for corner in corners]
+    faces = [[int(n) for n in line[1:]] for line in lines[2 + count:]]
+    path = tmp_path / "corners.csv"
+    path.write_text("".join(",".join(corner) + "\n" for corner in corners))  # in the planes of their faces
+    page = open_page("cutset", town, "--path", path)
+    frames = json.loads(run("cutset", town, "--path", path, "--faces", "--json", "-"))["result"]["frames"]
+    wrong = []
+    for frame in frames:
+        on, said = set(frame["on_view"]), on_view_in_doubles(points, faces, [float(Fraction(x)) for x in frame["eye"]])
+        wrong.append((sorted(on - said), sorted(said - on)))
+    assert any(extra for _, extra in wrong)
+    for i, key in enumerate(("missing", "extra")):
+        begin, pieces = page.numbers("doubles", key, "begin"), page.numbers("doubles", key, "pieces")
+        assert [pieces[a:b] for a, b in zip(begin, begin[1:])] == [one[i] for one in wrong]
+    page.one("#doubles").click()
+    at = [n for n, (missing, extra) in enumerate(wrong) if missing or extra]
+    buttons = page.all("section ul.list button")
+    assert [b.text for b in buttons] == [f"viewpoint {n + 1}: {len(wrong[n][0]) + len(wrong[n][1])}" for n in at]
+    for button, n in list(zip(buttons, at))[:5]:
+        button.click()
+        assert page.text("#slider-value").startswith(f"{n + 1} of ")
+        on = set(frames[n]["on_view"])
+        assert has_colours(page, {k: front if k in wrong[n][0] else source if k in wrong[n][1] else face_colour if k in on else hidden for k in range(len(faces))})
+        said = " ".join(f"here {state} in doubles: {', '.join(f'face {k}' for k in list_)}." for state, list_ in zip(("off-view", "on-view"), wrong[n]) if list_)
+        assert page.text("#errors") == said
+    page.slide(next(n for n in range(len(frames)) if n not in at) + 1)
+    assert page.text("#errors") == ""
+
+
+def test_a_corner_in_the_eye_is_in_no_direction(open_page):
+    """Of what is selected the sphere shows the sides, and no line from the top to a corner that is the eye itself."""
+    page = open_page("see", corpus / "general" / "cube.off", "--eye=0,0,0")
+    corners, sizes = page.numbers("polygons", "corners"), page.numbers("polygons", "sizes")
+    heights = [{corners[3 * (sum(sizes[:k]) + i) + 2] for i in range(sizes[k])} for k in range(page.data["base"])]
+    page.js("sightline.select(arguments[0])", next(k for k, own in enumerate(heights) if own == {min(corners[2::3])}))  # the bottom, in whose plane the eye is
+    rows = page.js("""
+        const all = document.getElementById('sphere').getContext('2d').getImageData(0, 0, 1024, 512).data, rows = new Set();
+        for (let i = 0; i < all.length; i += 4) if (all[i] < 50 && all[i + 1] < 50 && all[i + 2] < 50) rows.add(i / 4 >> 10);
+        return [...rows];
+        """)
+    assert rows and min(rows) > 245 and max(rows) < 267, "all of its other corners are on the horizon"
+
+
+def test_the_sphere_shows_nothing_of_groups_that_are_left_out(open_page):
+    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
+    for box in page.all(".legend input")[:2]:
+        box.click()
+    paper = page.js("""
+        const c = document.getElementById('sphere'), all = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+        const p = getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number);
+        let count = 0;
+        for (let i = 0; i < all.length; i += 4) count += all[i] === p[0] && all[i + 1] === p[1] && all[i + 2] === p[2];
+        return count / (all.length / 4);
+        """)
+    assert paper > 0.9, "the paper and its grid; what lies beneath is no part of the sphere"
+
+
+def test_a_scene_without_faces_shows_what_else_there_is(open_page, tmp_path):
+    empty = tmp_path / "empty.off"
+    empty.write_text("OFF\n0 0 0\n")
+    assert open_page("cells", empty).picture()[0] > 0, "the walls of the one cell"
+
+
+def test_what_is_too_small_to_be_drawn_is_said(open_page, tmp_path):
+    scene, place = generated(tmp_path, "exponents", 2)
+    page = open_page("see", scene, place)
+    assert any(re.fullmatch(r"[0-9]+ of the polygons (is|are) too small beside the scene to be drawn", note) for note in page.data["notes"])
+    assert not any("too small" in note for note in open_page("see", corpus / "general" / "cube.off", "--eye=3,4,5", name="cube.html").data["notes"])
+
+
+def test_lines_from_behind_the_eye_are_drawn_where_they_are(open_page):
+    page = open_page("see", corpus / "general" / "cube.off", "--eye=2/5,1/2,1/3", "--lines")
+    lines, points, dark = page.js("""
+        const view = document.getElementById('view'), gl = view.getContext('webgl2');
+        let lines = 0, points = 0, dark = 0;
+        sightline.camera.field = 100;
+        for (let turn = 0; turn < 24; ++turn) {
+          sightline.camera.yaw = 0.3 + turn * Math.PI / 4, sightline.camera.pitch = [-0.5, 0.1, 0.5][turn % 3];
+          sightline.draw();
+          const scale = view.width / view.clientWidth, all = new Uint8Array(4 * view.width * view.height);
+          gl.readPixels(0, 0, view.width, view.height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+          for (const line of sightline.linesOf('visible')) {
+            if (sightline.onCanvas(line.from) || !sightline.onCanvas(line.to)) continue;
+            let seen = 0;
+            for (let t = 0; t < 1; t += 0.005) {
+              const at = sightline.onCanvas(line.from.map((x, k) => x + t * (line.to[k] - x)));
+              if (!at || at[0] < 4 || at[1] < 4 || at[0] > view.clientWidth - 5 || at[1] > view.clientHeight - 5) continue;
+              const x = Math.floor(at[0] * scale), y = view.height - 1 - Math.floor(at[1] * scale);
+              let least = 255;
+              for (let i = -1; i <= 1; ++i) for (let j = -1; j <= 1; ++j) least = Math.min(least, all[4 * ((y + j) * view.width + x + i)]);
+              ++seen, ++points, dark += least < 75;
+            }
+            lines += seen > 0;
+          }
+        }
+        return [lines, points, dark];
+        """)
+    assert lines > 10 and dark > 0.95 * points, (lines, points, dark)
+
+
 def test_the_unrolled_sphere_has_the_colour_of_what_is_met_there(open_page):
     page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
     size = page.js("const s = document.getElementById('sphere'); return [s.clientWidth, s.clientHeight]")

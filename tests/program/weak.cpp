@@ -1,6 +1,7 @@
 // sightline weak: answers, certificates, pictures, sources that are none.
 
 #include "program.h"
+#include "terminal.h"
 
 #include <algorithm>
 
@@ -388,6 +389,19 @@ TEST_F(Weak, refuses_volumes_that_are_none) {
   refused({"--from-volume", file("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")}, "do not close up");
   refused({"--from-volume", path("nothing.off").string()}, "nothing.off", bad_input);
   refused({"--from-volume", ""}, "--from-volume");
+}
+
+TEST_F(Weak, shows_a_bar_of_its_own_while_doubles_are_asked_for_a_page) {
+  const std::string soup = path("soup.off").string(), page = path("page.html").string();
+  ASSERT_EQ(run({"generate", "soup", "--size", "2000", "--out", soup}).code, done);
+  std::vector<std::string> words{executable,  "weak", soup,     "--two-sided",
+                                 "--threads", "1",    "--from", "-2,-2,-2 3,-2,-2 3,3,-2 -2,3,-2"};
+  EXPECT_EQ(on_a_terminal(words).find("doubles"), std::string::npos) << "there is no page";
+  words.insert(words.end(), {"--html", page});
+  const std::string told = on_a_terminal(words);
+  const std::size_t first = told.find("searching ["), second = told.find("what doubles make of it [");
+  EXPECT_LT(first, second) << told;
+  EXPECT_NE(second, std::string::npos) << told;
 }
 
 }  // namespace program

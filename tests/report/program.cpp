@@ -299,6 +299,44 @@ TEST_F(Report_command, asks_programs_for_set_operations) {
   EXPECT_EQ(shown.count("program") + shown.count("float"), 2u) << result["examples"];
 }
 
+/// Each example marks the faces that are wrong, or says why it marks none.
+TEST_F(Report_command, marks_the_faces_that_are_wrong_of_each_question) {
+  const Outcome r = run({"report", "--questions", "order,see,render,trace,cutset,pvs", "--quick", "--families",
+                         "leaves,boxes,exponents", "--distances", "0", "--sizes", "0", "--cases", "2", "--reduce", "10",
+                         "--keep", path("kept").string(), "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const std::map<std::string, std::set<std::string>> names{
+      {"order", {"nearer, or missing", "drawn over it"}},
+      {"see", {"missing but visible", "shown but hidden"}},
+      {"render", {"not shown where it is seen", "shown where it is not"}},
+      {"trace", {"met, but not named", "named, but not met first"}},
+      {"cutset", {"on-view, but not said to be", "off-view, but said to be on-view"}},
+      {"pvs", {"seen from the cell, but not said to be", "not seen from the cell, but said to be"}}};
+  std::map<std::string, std::size_t> marked, all;
+  const Json report = r.json();
+  for (const Json& example : report["result"]["examples"]) {
+    const std::string question = example["question"];
+    ++all[question];
+    std::size_t groups = 0;
+    for (const Json& group : example["view"]["groups"]) groups += names.at(question).count(group["name"]);
+    marked[question] += groups > 0;
+    const std::string why = example["why"];
+    EXPECT_EQ(why.starts_with("no face is marked: "), groups == 0) << example;
+    if (question == "cutset") {
+      EXPECT_TRUE(example["view"].contains("eye")) << "the viewpoint";
+    }
+    if (question == "trace") {
+      EXPECT_TRUE(why.starts_with("the ray from (")) << why;
+    }
+    if (groups > 0) {
+      EXPECT_NE(example["picture"].get<std::string>().find("right"), std::string::npos) << "a key of the colours";
+    }
+  }
+  for (const char* question : {"render", "cutset", "pvs"}) EXPECT_GT(all[question], 0u) << question;
+  for (const char* question : {"render", "trace", "cutset", "pvs"})
+    EXPECT_EQ(marked[question], all[question]) << question;
+}
+
 /// What `compare` says of one scene, of a folder, in shards: together they are what one run is.
 TEST_F(Report_command, of_a_folder_passes_over_what_cannot_be_read_and_shards_add_up) {
   const fs::path folder = path("folder");
