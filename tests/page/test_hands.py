@@ -104,6 +104,22 @@ def test_an_eye_straight_below_or_above_the_middle_does_not_look_over_the_top(op
     assert abs(before[1]) > 1.5 and before[1] == after[1], "to turn aside is not to turn upside down"
 
 
+def test_a_closed_room_fills_the_view_of_who_looks_along_an_axis(open_page, tmp_path):
+    """Its squares have corners in the plane of the eye across that axis, which renderers may take for ones behind it."""
+    grid = [[0, 1, 2, 3, 4, 4.2, 5, 6, 7, 8.2], range(3), range(5)]
+    points, faces = [], []
+    for k in range(3):
+        x, y = (k + 1) % 3, (k + 2) % 3
+        for side, a, b in ((s, a, b) for s in (0, -1) for a in range(len(grid[x]) - 1) for b in range(len(grid[y]) - 1)):
+            loop = [{k: grid[k][side], x: grid[x][a + i], y: grid[y][b + j]} for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            faces.append(range(len(points), len(points) + 4))
+            points += loop if side == 0 else loop[::-1]
+    room = tmp_path / "room.off"
+    room.write_text(f"OFF\n{len(points)} {len(faces)} 0\n" + "".join(f"{p[0]} {p[1]} {p[2]}\n" for p in points) + "".join(f"4 {' '.join(map(str, f))}\n" for f in faces))
+    page = open_page("see", room, "--eye", "1,1,2")
+    assert page.picture()[0] == 1, "no paper is seen"
+
+
 def test_keys_go_on_from_where_a_button_was(open_page, browser):
     from selenium.webdriver.common.keys import Keys
 
