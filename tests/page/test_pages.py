@@ -543,6 +543,10 @@ def test_arcs_that_doubles_lack_or_invent_are_marked(open_page, tmp_path, town):
         ends = {b if a == one else a for a, b in wrong if one in (a, b)}
         assert has_colours(page, {k: (250, 250, 245) if k == one else colour if k in ends else face_colour for k in range(count)})
         assert {b.text for b in page.all(f"{of} button")} == {f"face {k}" for k in ends}
+        assert not page.all("#arcs-right")
+        for other in list({*range(count)} - marked)[:1]:
+            page.js("sightline.select(arguments[0])", other)
+            assert page.text("#arcs-right") == "plain doubles have all of its arcs right" and not page.all(of)
         page.js("sightline.select(-1)")
         assert has_colours(page, {k: colour if k in marked else face_colour for k in range(count)})
 
