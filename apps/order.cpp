@@ -164,24 +164,22 @@ struct Found_order {
 };
 
 /// An order of the same kind in plain doubles, as the judge takes it: faces that are drawn once, in one piece, stand
-/// for themselves, others for the parts that doubles make of them.
+/// for themselves, others for the parts that doubles make of them. Errors: std::domain_error where one is no number.
 static judge::Answer order_in_doubles(const Order_arguments& arguments, Scene& scene, Task task) {
   judge::Answer answer;
   task.near = std::nullopt;
   if (!arguments.by_graph()) {
-    for (Drawn& item : run_method("double", scene, task).drawn)
-      answer.order.push_back({item.fragment.face, std::move(item.fragment.vertices)});
+    Outcome outcome = run_method("double", scene, task);
+    if (outcome.not_finite > 0) throw std::domain_error("parts that are no numbers");
+    for (Drawn& item : outcome.drawn) answer.order.push_back({item.fragment.face, std::move(item.fragment.vertices)});
   } else {
     const Double_traits traits(scene);
     const auto tree = build_priority_tree(traits, {arguments.two_sided, false, task.bsp.progress});
     const auto order = back_to_front(traits, tree, *task.eye, task.bsp.progress);
     for (const Convex_polygon<Double_traits>& polygon : order.polygons) {
-      judge::Drawn_face drawn{scene.pieces()[polygon.piece].face, {}};
-      try {
-        for (const Corner<Double_traits>& corner : polygon) drawn.part.push_back(traits.position(*corner.vertex));
-        answer.order.push_back(std::move(drawn));
-      } catch (const std::domain_error&) {  // what is no number is not drawn
-      }
+      judge::Drawn_face& drawn = answer.order.emplace_back();
+      drawn.face = scene.pieces()[polygon.piece].face;
+      for (const Corner<Double_traits>& corner : polygon) drawn.part.push_back(traits.position(*corner.vertex));
     }
   }
   std::vector<std::uint32_t> parts(scene.counters().faces_read), pieces(scene.counters().faces_read);

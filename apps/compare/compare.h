@@ -31,8 +31,8 @@ struct Compare_arguments {
   std::size_t random = 1000;           ///< rays of each kind
   std::optional<judge::Query> solids;  ///< of report's question boolean: what is asked of the scene's two solids
   /// Rows hold the answer too: of order, see, weak as "said"; of render, trace, cutset and pvs the faces that it has
-  /// wrong as "wrong_faces": {"missing": {"faces", "name"}, "extra": the same, "words"}, of cutset "at", the viewpoint,
-  /// of trace "line": {"face", "from", "to"}, where there is one.
+  /// wrong as "wrong_faces": {"missing": {"faces", "name"}, "extra": the same, "words"}, of cutset and pvs "at", the
+  /// viewpoint or a point of the cell, of trace "line": {"face", "from", "to"}, where there is one.
   bool says = false;
 };
 

@@ -45,8 +45,9 @@ Json judged(const Cells_question& question, const Sets& said, double seconds, co
     worst = std::max(worst, missing.size());
     if (question.says && wrong_faces.is_null() && missing.size() + more.size() > 0) {
       const Exact_point at = question.level.inside(c);
-      wrong_faces = {{"missing", {{"faces", missing}, {"name", "seen from the cell, but not said to be"}}},
-                     {"extra", {{"faces", more}, {"name", "not seen from the cell, but said to be"}}},
+      wrong_faces = {{"missing", {{"faces", missing}, {"name", "seen by the cell, not said"}}},
+                     {"extra", {{"faces", more}, {"name", "said, not seen by the cell"}}},
+                     {"at", point_json(at)},
                      {"words", fmt::format("cell {}, about ({}): faces that it sees missing {}, too many {}", c,
                                            Page::text(at), missing.size(), more.size())}};
     }

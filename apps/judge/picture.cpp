@@ -164,7 +164,7 @@ void draw_line(Svg& svg, const View& view, const Shown_line& line, const judge::
   const Flat_point p = projected(view, line.from);
   constexpr std::string_view red = "#c01818";
   if (!why.refutation) {
-    if (!weak && !solids) dot_at(svg, p, 4.5, "#202020");
+    if (!weak && !solids && query.question != judge::Question::trace) dot_at(svg, p, 4.5, "#202020");
     return;
   }
   const Flat_point q = projected(view, line.to);

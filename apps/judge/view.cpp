@@ -99,9 +99,9 @@ Json view_of(const std::string& command, const std::string& question, const Poly
 
   // 2. Who looks, and the line; of what is far away only its direction is in view at first.
   const Rational reach = reach_of(scene);
-  if (question == "order" || question == "see" || question == "render" || question == "cutset") {
+  if (question == "order" || question == "see" || question == "render" || question == "cutset" || question == "pvs") {
     page.set_eye(query.eye);
-    page.add_fact("eye", Page::text(query.eye));
+    page.add_fact(question == "pvs" ? "in the cell" : "eye", Page::text(query.eye));
     shown.push_back(query.eye);
   }
   if (why.refutation) {

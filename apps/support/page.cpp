@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 namespace sightline::app {
 
@@ -75,6 +76,8 @@ Json asked_of_doubles(const Time_limit& limit, const std::function<Json(const Re
     });
   } catch (const Out_of_budget&) {
     return doubles_left_out(fmt::format("the budget of {} s ran out", limit.seconds()));
+  } catch (const std::domain_error&) {
+    return doubles_left_out("coordinates are beyond them");
   }
 }
 

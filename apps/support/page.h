@@ -31,7 +31,7 @@ std::string scenes_within();
 
 /// What stands under `doubles` in a page: what `ask` makes of an exact answer in plain doubles, while a bar of its own
 /// says how far it is. Once the limit, that of the exact answer, is over, what `ask` tells ends it, and the page says
-/// so instead: the exact answer stands.
+/// so instead, as where it throws std::domain_error: the exact answer stands.
 Json asked_of_doubles(const Time_limit& limit, const std::function<Json(const Report& report)>& ask);
 /// The same where doubles are not asked: why, in words that go on "Not asked: ".
 Json doubles_left_out(const std::string& why);

@@ -18,12 +18,12 @@ TEST(Image_errors, name_the_faces_of_wrong_pixels_and_leave_out_ties) {
   Piece_image truth, image;
   truth.pieces = {0, 1, 2, nothing, 0, 3};
   truth.tied = {0, 0, 0, 0, 1, 0};
-  image.pieces = {0, 2, nothing, 1, 3, 3};
+  image.pieces = {0, 2, nothing, 3, 3, 3};
   const Image_errors errors = image_errors(scene, truth, image);
   EXPECT_EQ(errors.wrong, 3u);
   EXPECT_EQ(errors.covered, (std::vector<Face_id>{1, 2}));
-  EXPECT_EQ(errors.shown, (std::vector<Face_id>{1, 2}));
-  EXPECT_EQ(errors.missing, 0u) << "2 is shown, elsewhere";
+  EXPECT_EQ(errors.shown, (std::vector<Face_id>{2, 3}));
+  EXPECT_EQ(errors.missing, 1u) << "1 is; 2 is shown, elsewhere";
   const Image_errors none = image_errors(scene, truth, truth);
   EXPECT_EQ(none.wrong, 0u);
   EXPECT_TRUE(none.covered.empty());

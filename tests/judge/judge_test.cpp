@@ -266,6 +266,18 @@ TEST(Orders, of_a_tower) {
     EXPECT_FALSE(graded(soup, question(Question::order, {0, 0, 1}, true), order).wrong()) << order;
 }
 
+TEST(Orders, have_wrong_pairs_whatever_else_is_wrong) {
+  const Scene scene(tower({0, 1, 2}));
+  const Order_truth truth(scene, {0, 0, 5}, true);
+  Answer answer;
+  answer.order = {{2, {}}, {0, {}}};  // 1 is missing
+  EXPECT_EQ(truth.wrong_pairs(answer), (std::vector<std::array<Face_id, 2>>{{2, 0}}));
+  answer.order = {{2, {}}, {1, {}}, {0, {}}};
+  EXPECT_EQ(truth.wrong_pairs(answer), (std::vector<std::array<Face_id, 2>>{{1, 0}, {2, 0}, {2, 1}})) << "sorted";
+  answer.order = {{0, {}}, {1, {}}, {2, {}}};
+  EXPECT_TRUE(truth.wrong_pairs(answer).empty());
+}
+
 TEST(Orders, of_squares_a_hair_apart_are_judged_exactly) {
   Polygon_soup soup;
   add_square(soup, 0, 1);

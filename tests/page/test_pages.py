@@ -503,6 +503,15 @@ def test_where_nothing_is_marked_the_page_says_why(open_page, words, said):
     assert page.text("#not-marked") == said and not page.all("#doubles")
 
 
+@pytest.mark.parametrize("words", [[], ["--method", "graph"]], ids=["by a tree", "by the graph"])
+def test_coordinates_beyond_doubles_leave_them_out(open_page, tmp_path, words):
+    huge = tmp_path / "huge.qoff"
+    points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1), (0, 0, 2), (1, 1, 2), (0, 1, 3)]
+    huge.write_text("OFF\n9 3 0\n" + "".join(" ".join(f"{x}{'0' * 400}" for x in p) + "\n" for p in points) + "3 0 1 2\n3 3 4 5\n3 6 7 8\n")
+    page = open_page("order", huge, "--eye=1,1,5", *words)
+    assert page.text("#not-marked") == "Not asked: coordinates are beyond them."
+
+
 def test_doubles_are_left_out_where_they_would_take_long(open_page, tmp_path, town):
     soup = tmp_path / "soup.off"
     run("generate", "soup", "--size", 2001, "--out", soup)
@@ -534,6 +543,10 @@ def test_arcs_that_doubles_lack_or_invent_are_marked(open_page, tmp_path, town):
         ends = {b if a == one else a for a, b in wrong if one in (a, b)}
         assert has_colours(page, {k: (250, 250, 245) if k == one else colour if k in ends else face_colour for k in range(count)})
         assert {b.text for b in page.all(f"{of} button")} == {f"face {k}" for k in ends}
+        assert not page.all("#arcs-right")
+        for other in list({*range(count)} - marked)[:1]:
+            page.js("sightline.select(arguments[0])", other)
+            assert page.text("#arcs-right") == "plain doubles have all of its arcs right" and not page.all(of)
         page.js("sightline.select(-1)")
         assert has_colours(page, {k: colour if k in marked else face_colour for k in range(count)})
 

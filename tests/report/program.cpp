@@ -311,7 +311,7 @@ TEST_F(Report_command, marks_the_faces_that_are_wrong_of_each_question) {
       {"render", {"not shown where it is seen", "shown where it is not"}},
       {"trace", {"met, but not named", "named, but not met first"}},
       {"cutset", {"on-view, but not said to be", "off-view, but said to be on-view"}},
-      {"pvs", {"seen from the cell, but not said to be", "not seen from the cell, but said to be"}}};
+      {"pvs", {"seen by the cell, not said", "said, not seen by the cell"}}};
   std::map<std::string, std::size_t> marked, all;
   const Json report = r.json();
   for (const Json& example : report["result"]["examples"]) {
@@ -322,8 +322,8 @@ TEST_F(Report_command, marks_the_faces_that_are_wrong_of_each_question) {
     marked[question] += groups > 0;
     const std::string why = example["why"];
     EXPECT_EQ(why.starts_with("no face is marked: "), groups == 0) << example;
-    if (question == "cutset") {
-      EXPECT_TRUE(example["view"].contains("eye")) << "the viewpoint";
+    if (question == "cutset" || question == "pvs") {
+      EXPECT_TRUE(example["view"].contains("eye")) << "the viewpoint, or a point of the cell";
     }
     if (question == "trace") {
       EXPECT_TRUE(why.starts_with("the ray from (")) << why;
