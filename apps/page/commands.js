@@ -54,8 +54,8 @@ commands.graph = () => {
   const wrong = {missing: wrongNumbers('missing'), extra: wrongNumbers('extra')}, allWrong = key => new Set(wrong[key].slice().sort((a, b) => a - b));
   const doubles = plainDoubles({
     who: 'A comparison in plain doubles', finds: 'the same arcs', idOf: k => polygons.number(k), nameOf: nameOfPiece,
-    missing: {set: allWrong('missing'), count: wrong.missing.length / 2, name: 'faces of missing arcs', words: 'arcs missing'},
-    extra: {set: allWrong('extra'), count: wrong.extra.length / 2, name: 'faces of arcs that are none', words: 'arcs that are none'},
+    missing: {set: allWrong('missing'), count: wrong.missing.length / 2, name: 'faces of missing arcs', words: wrong.missing.length === 2 ? 'arc missing' : 'arcs missing'},
+    extra: {set: allWrong('extra'), count: wrong.extra.length / 2, name: 'faces of arcs that are none', words: wrong.extra.length === 2 ? 'arc that is none' : 'arcs that are none'},
   });
   /// The pieces at the other ends of a piece's wrong arcs.
   const othersOf = (key, n) => {
