@@ -42,6 +42,12 @@ struct Traits {
       return CGAL::sign(cmp(a.exact->y, b.exact->y));
     }
   };
+  struct Compare_xy_2 {  // CGAL 6 asks for it
+    CGAL::Comparison_result operator()(const Site& a, const Site& b) const {
+      const CGAL::Comparison_result x = Compare_x_2()(a, b);
+      return x == CGAL::EQUAL ? Compare_y_2()(a, b) : x;
+    }
+  };
   struct Orientation_2 {
     CGAL::Orientation operator()(const Site& a, const Site& b, const Site& c) const;
   };
@@ -51,6 +57,7 @@ struct Traits {
   Construct_point_2 construct_point_2_object() const { return {}; }
   Compare_x_2 compare_x_2_object() const { return {}; }
   Compare_y_2 compare_y_2_object() const { return {}; }
+  Compare_xy_2 compare_xy_2_object() const { return {}; }
   Orientation_2 orientation_2_object() const { return {}; }
   Side_of_oriented_circle_2 side_of_oriented_circle_2_object() const { return {}; }
 };
