@@ -12,8 +12,8 @@
 #include <limits>
 #include <map>
 #include <queue>
-#include <unordered_map>
 #include <span>
+#include <unordered_map>
 #include <utility>
 
 namespace sightline {

@@ -189,15 +189,20 @@ def test_what_is_seen_has_lines_and_what_hides_them(open_page, town):
     assert "visible" in page.text("#selected-name") or page.all("#edge-parts")
 
 
-def test_all_directions_are_filled_in_a_closed_room(open_page):
-    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
-    paper = page.js("""
+def paper_of_the_sphere(page):
+    """The share of the unrolled sphere that shows nothing."""
+    return page.js("""
         const c = document.getElementById('sphere'), all = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
         const p = getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number);
         let count = 0;
         for (let i = 0; i < all.length; i += 4) count += all[i] === p[0] && all[i + 1] === p[1] && all[i + 2] === p[2];
         return count / (all.length / 4);
     """)
+
+
+def test_all_directions_are_filled_in_a_closed_room(open_page):
+    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
+    paper = paper_of_the_sphere(page)
     assert paper < 1e-3, "the eye sees faces wherever it looks"
 
 
@@ -619,13 +624,7 @@ def test_the_sphere_shows_nothing_of_groups_that_are_left_out(open_page):
     page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
     for box in page.all(".legend input")[:2]:
         box.click()
-    paper = page.js("""
-        const c = document.getElementById('sphere'), all = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
-        const p = getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number);
-        let count = 0;
-        for (let i = 0; i < all.length; i += 4) count += all[i] === p[0] && all[i + 1] === p[1] && all[i + 2] === p[2];
-        return count / (all.length / 4);
-        """)
+    paper = paper_of_the_sphere(page)
     assert paper > 0.9, "the paper and its grid; what lies beneath is no part of the sphere"
 
 
