@@ -118,6 +118,7 @@ void rooms(const std::filesystem::path& folder, std::size_t count, std::ostream&
       const double start = bench::now();
       const std::vector<Weak_source> sources{weak_source(occluders, static_cast<std::uint32_t>(piece))};
       Weakly_visible found = weakly_visible(occluders, sources, options);
+      search_thoroughly(occluders, sources, options, found);
       by_events += found.undecided.size();
       Events_options events;
       events.threads = 1;

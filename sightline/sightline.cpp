@@ -25,6 +25,9 @@ namespace sightline {
 // ---- An order
 
 Visibility_order order(const Model& model, const Exact_point& eye, const Asking& asking) {
+  Asking collecting;  // which counts too
+  collecting.budget = asking.budget;
+  const auto in_time = progress_within_budget(collecting);
   const std::shared_ptr<const Model::Inside> inside = model.inside();
   const Exact_traits& traits = inside->traits();
   const Scene& scene = inside->scene();
@@ -33,6 +36,7 @@ Visibility_order order(const Model& model, const Exact_point& eye, const Asking&
   Order_cuts cuts;
   traverse_with_cuts(traits, inside->tree(asking), traits.eye(eye), &scene, cuts,
                      [&](const Fragment<Exact_traits>& fragment, Sign) {
+                       if (in_time) in_time(answer.parts.size(), answer.parts.size());
                        const Piece& piece = scene.pieces()[fragment.polygon.piece];
                        Part& part = answer.parts.emplace_back(Part{piece.face, piece.number, {}});
                        for (const Corner<Exact_traits>& corner : fragment.polygon)

@@ -49,6 +49,7 @@ Weakly_visible seen_by_lines(const Occluders& occluders, const std::vector<Weak_
   options.search.two_sided = asking.two_sided;
   options.search.out_of_time = end_of_budget(asking);
   Weakly_visible found = weakly_visible(occluders, polygons, options);
+  search_thoroughly(occluders, polygons, options, found);
   Events_options events;
   events.threads = asking.threads;
   events.progress = asking.progress;

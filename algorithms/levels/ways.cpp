@@ -58,6 +58,7 @@ Weak_answer visible_at_any_cost(const Occluders& occluders, const Weak_source& s
   search.threads = 1;
   const std::vector<Weak_source> sources{source};
   Weakly_visible found = weakly_visible(occluders, sources, search);
+  search_thoroughly(occluders, sources, search, found);
   Events_options events;
   events.two_sided = options.search.two_sided;
   events.seed = options.search.seed;

@@ -13,7 +13,8 @@
 namespace sightline {
 namespace {
 
-constexpr std::size_t cells_of_proof_search = 2000;  // proofs that were found took fewer
+constexpr std::size_t thorough_cells = 2000;  // hardly any that more would decide
+constexpr int thorough_bisections = 40;
 
 struct Cell {
   Near_polygon source, target;
@@ -54,26 +55,17 @@ std::vector<Cell> cells_of_proof(const Occluders& occluders, const Weak_source& 
   return found;
 }
 
-/// A search for proofs of faces that are hidden and unproved: one cell that stays open is one too many.
-void prove_hidden(const Occluders& occluders, const std::vector<Weak_source>& sources, std::vector<Face_id> faces,
-                  const Events_options& events, Weakly_visible& found) {
-  if (faces.empty()) return;
-  Weak_options options;
-  options.faces = std::move(faces);
-  options.threads = events.threads;
-  options.search.two_sided = events.two_sided;
-  options.search.hidden = true;
-  options.search.rays = 0;
-  options.search.open = 1;
-  options.search.cells = cells_of_proof_search;
-  options.search.out_of_time = events.out_of_time;
-  Weakly_visible more = weakly_visible(occluders, sources, options);
-  std::vector<Face_id> rest;
-  std::set_difference(found.unproved.begin(), found.unproved.end(), more.hidden.begin(), more.hidden.end(),
-                      std::back_inserter(rest));
-  found.unproved = std::move(rest);
-  for (Weakly_visible::Pair& pair : more.pairs)
-    if (pair.answer.status == Weak_status::hidden) found.pairs.push_back(std::move(pair));
+/// Adds what another search found of faces that were undecided; `open` stays for whoever calls.
+void add_decided(Weakly_visible& found, Weakly_visible&& more) {
+  for (const Weak_status status : {Weak_status::visible, Weak_status::hidden}) {
+    std::vector<Face_id>&all_of = found.of(status), &own = more.of(status);
+    const auto middle = all_of.insert(all_of.end(), own.begin(), own.end());
+    std::inplace_merge(all_of.begin(), middle, all_of.end());
+  }
+  std::move(more.pairs.begin(), more.pairs.end(), std::back_inserter(found.pairs));
+  std::stable_sort(found.pairs.begin(), found.pairs.end(),
+                   [](const auto& a, const auto& b) { return a.piece < b.piece; });
+  found.undecided = std::move(more.undecided);
   found.counters += more.counters;
 }
 
@@ -139,6 +131,23 @@ Weak_answer weak_answer(const Events_answer& found) {
   return answer;
 }
 
+void search_thoroughly(const Occluders& occluders, const std::vector<Weak_source>& sources, Weak_options search,
+                       Weakly_visible& found) {
+  if (found.undecided.empty()) return;
+  search.faces = found.undecided;
+  search.search.thorough = true;
+  search.search.rays = 0;
+  search.search.open = 1;
+  search.search.cells = std::min(search.search.cells, thorough_cells);
+  search.search.bisections = thorough_bisections;
+  add_decided(found, weakly_visible(occluders, sources, search));
+  const auto is_undecided = [&](const Weakly_visible::Pair& pair) {
+    const Face_id face = occluders.scene().pieces()[pair.piece].face;
+    return std::binary_search(found.undecided.begin(), found.undecided.end(), face);
+  };
+  std::erase_if(found.open, [&](const Weakly_visible::Pair& pair) { return !is_undecided(pair); });
+}
+
 Event_counters decide_the_rest(const Occluders& occluders, const std::vector<Weak_source>& sources, Weak_options search,
                                std::size_t most_edges, Events_options events, Weakly_visible& found) {
   constexpr std::size_t few_events = 1000000;
@@ -160,17 +169,8 @@ Event_counters decide_the_rest(const Occluders& occluders, const std::vector<Wea
     search.search.bisections += 4;
     search.faces = found.undecided;
     Weakly_visible more = weakly_visible(occluders, sources, search);
-    for (const Weak_status status : {Weak_status::visible, Weak_status::hidden}) {
-      std::vector<Face_id>&all_of = found.of(status), &own = more.of(status);
-      const auto middle = all_of.insert(all_of.end(), own.begin(), own.end());
-      std::inplace_merge(all_of.begin(), middle, all_of.end());
-    }
-    std::move(more.pairs.begin(), more.pairs.end(), std::back_inserter(found.pairs));
-    std::stable_sort(found.pairs.begin(), found.pairs.end(),
-                     [](const auto& a, const auto& b) { return a.piece < b.piece; });
-    found.undecided = std::move(more.undecided);
     found.open = std::move(more.open);
-    found.counters += more.counters;
+    add_decided(found, std::move(more));
   }
   return counters;
 }
@@ -230,12 +230,6 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
   }
   for (std::vector<Face_id>* list : {&found.visible, &found.hidden, &found.unproved})
     std::sort(list->begin(), list->end());
-
-  // 4. Proofs of what is hidden.
-  std::vector<Face_id> hidden;
-  for (const Settled& face : faces)
-    if (face.status == Weak_status::hidden) hidden.push_back(face.face);
-  prove_hidden(occluders, sources, std::move(hidden), options, found);
   std::stable_sort(found.pairs.begin(), found.pairs.end(),
                    [](const auto& a, const auto& b) { return a.piece < b.piece; });
   return counters;

@@ -121,9 +121,10 @@ struct Weak_search_options {
   int rays = 24;        ///< lines that are tried before the search
   std::uint64_t seed = 1;
   std::function<bool()> out_of_time;  ///< asked before each cell; then what is left is undecided
-  /// The answer is known, and a proof is looked for, by dearer means: cells are cut at once by planes that edges share,
-  /// and by those through lines that they touch; programs are exact. Proof: P-71h
-  bool hidden = false;
+  /// By dearer means, for pairs of which another search left cells open: cells are cut at once by planes that edges
+  /// share, and by those through lines that they touch; programs are exact, and lines are looked for in cells that are
+  /// thinner than what doubles tell apart. Proof: P-71h
+  bool thorough = false;
 };
 
 // ---- Of all faces

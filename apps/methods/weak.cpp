@@ -109,6 +109,7 @@ static Weak_outcome by_lines(const Occluders& occluders, const Sources& sources,
   if (task.cells > 0) options.search.cells = task.cells;
   options.search.out_of_time = task.out_of_time;
   Weak_outcome outcome{weakly_visible(occluders, sources.polygons, options), {}, {}, {}, {}};
+  search_thoroughly(occluders, sources.polygons, options, outcome.found);
   if (task.event_edges == 0) return outcome;
   const std::vector<Face_id> before = outcome.found.undecided;
   outcome.events = settle_by_events(occluders, sources.polygons, task.event_edges, events, outcome.found);

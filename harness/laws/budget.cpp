@@ -113,6 +113,7 @@ Outcome by_lines_within(const Polygon_soup& soup, const Posed_scene& posed, Budg
   events.out_of_time = options.search.out_of_time;
   budget.begin();
   Weakly_visible found = weakly_visible(occluders, sources, options);
+  search_thoroughly(occluders, sources, options, found);
   settle_by_events(occluders, sources, usual_event_edges, events, found);
   decide_the_rest(occluders, sources, options, usual_event_edges, events, found);
   if (const std::string late = budget.overdrawn(); !late.empty()) return Outcome::failed(late);

@@ -7,6 +7,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_search.h>
 #include <sightline/algorithms/weak_visibility/events/events.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
@@ -31,7 +32,7 @@ namespace sightline::harness {
 namespace weak_subject {
 
 /// Searches end here: rarely, a tangled degenerate scene would take minutes.
-inline constexpr std::size_t most_cells = 3000, most_events = 100000;
+inline constexpr std::size_t most_cells = 3000, most_thorough_cells = 200, most_events = 100000;
 inline constexpr std::size_t whole = 1000000;  // edges: no shaft is divided
 
 template <class Found>
@@ -49,7 +50,10 @@ Answer by_lines(const Posed_scene& posed, bool verify) {
   Weak_options options;
   options.threads = 1;
   options.search.cells = most_cells;
-  const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, posed.source)}, options);
+  const std::vector<Weak_source> sources{weak_source(occluders, posed.source)};
+  Weakly_visible found = weakly_visible(occluders, sources, options);
+  options.search.cells = most_thorough_cells;
+  search_thoroughly(occluders, sources, options, found);
   Answer answer = labels_of(posed.soup, scene, found);
   if (!verify) return answer;
   const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, {posed.source}, false, found));

@@ -174,7 +174,9 @@ Outcome settled(const Posed_scene& posed, const Answer& answer, Random& random) 
   options.search.cells = 1 + random.below(16);
   Weakly_visible found = weakly_visible(occluders, sources, options);
   if (found.open.empty()) return Outcome::not_applicable();
-  // 2. Events, often of fewer edges than are near all of source and target.
+  // 2. Often a thorough search, of as few cells; and events, often of fewer edges than are near all of source and
+  // target.
+  if (random.chance(1, 2)) search_thoroughly(occluders, sources, options, found);
   std::size_t edges = 0;
   for (const Weakly_visible::Pair& pair : found.open)
     edges = std::max(edges, edges_between(occluders, sources[0], pair.piece));

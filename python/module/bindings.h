@@ -12,7 +12,9 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sightline::python {
@@ -35,8 +37,15 @@ py::array_t<std::int64_t> ids(const std::vector<T>& values) {
   std::copy(values.begin(), values.end(), array.mutable_data());
   return array;
 }
-inline py::array_t<double> doubles(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+/// An array of numbers that are already there, of one dimension or of points.
+template <class T>
+py::array_t<T> array_of(std::vector<T>&& values, bool of_points = false) {
+  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+  const auto count = static_cast<py::ssize_t>(kept->size());
+  T* const data = kept->data();
+  const py::capsule owner(kept.release(), [](void* all) { delete static_cast<std::vector<T>*>(all); });
+  if (of_points) return py::array_t<T>({count / 3, py::ssize_t{3}}, data, owner);
+  return py::array_t<T>(count, data, owner);
 }
 
 /// Points as (n, 3) doubles, each the nearest.

@@ -189,22 +189,11 @@ void write(const Model& model, const std::string& file) {
 
 template <class Measure>
 py::array_t<double> measured(const Parts& parts, Measure measure) {
-  return doubles(answer_to(plain_question(), [parts, measure](const Asking&) {
+  return array_of(answer_to(plain_question(), [parts, measure](const Asking&) {
     std::vector<double> all(parts.count);
     for (std::size_t i = 0; i < parts.count; ++i) all[i] = measure(parts.at(i));
     return all;
   }));
-}
-
-/// An array of numbers that are already there, of one dimension or of points.
-template <class T>
-py::array_t<T> array_of(std::vector<T>&& values, bool of_points = false) {
-  auto kept = std::make_unique<std::vector<T>>(std::move(values));
-  const auto count = static_cast<py::ssize_t>(kept->size());
-  T* const data = kept->data();
-  const py::capsule owner(kept.release(), [](void* all) { delete static_cast<std::vector<T>*>(all); });
-  if (of_points) return py::array_t<T>({count / 3, py::ssize_t{3}}, data, owner);
-  return py::array_t<T>(count, data, owner);
 }
 
 void append_rounded(std::vector<double>& to, const std::vector<Exact_point>& points) {

@@ -392,6 +392,7 @@ TEST(Answers, say_that_the_budget_ran_out) {
   Asking patient;
   patient.budget = 1e9;
   EXPECT_EQ(order(model, {0, 0, 10}, patient).parts.size(), 3u);
+  EXPECT_THROW(order(model, {0, 0, 10}, hasty), Out_of_budget);  // though its tree is there
   EXPECT_TRUE(weakly_visible(model, 2, patient).undecided.empty());
 }
 

@@ -63,9 +63,9 @@ TEST(Settled_by_events, also_between_the_open_parts_alone) {
   EXPECT_GT(by_parts, test_scenes::is_sanitized() ? 0u : 2u);
 }
 
-/// `SIGHTLINE_LONG=36 test_weak_visibility --gtest_filter='Hidden_by_events.*'` counts over 3,024 scenes.
-TEST(Hidden_by_events, are_proved) {
-  std::size_t scenes = 0, open = 0, unproved = 0;
+/// `SIGHTLINE_LONG=36 test_weak_visibility --gtest_filter='Left_open.*'` counts over 3,024 scenes.
+TEST(Left_open, is_decided_and_proved_by_a_thorough_search_as_events_decide_it) {
+  std::size_t scenes = 0, hidden = 0, visible = 0, left = 0;
   for (const weak_scenes::Family& family : weak_scenes::families())
     for (std::uint64_t seed = 0; seed < weak_scenes::seeds(some(4)) + (family.name == "tangent" ? 20 : 0); ++seed) {
       const weak_scenes::Weak_scene scene = family.make(seed);
@@ -75,21 +75,44 @@ TEST(Hidden_by_events, are_proved) {
       const std::vector<Weak_source> sources{weak_source(occluders, scene.source)};
       Weakly_visible found = weakly_visible(occluders, sources);
       if (found.undecided.empty()) continue;
-      settle_by_events(occluders, sources, usual_event_edges, {}, found);
-      const auto is_hidden = [&](Face_id face) {
-        return std::binary_search(found.hidden.begin(), found.hidden.end(), face);
-      };
-      open += static_cast<std::size_t>(std::count_if(scene.targets.begin(), scene.targets.end(), is_hidden));
-      if (!found.unproved.empty()) std::cout << scene.name << ": " << found.unproved.size() << " unproved\n";
-      unproved += found.unproved.size();
+      Weakly_visible by_events = found;
+      search_thoroughly(occluders, sources, {}, found);
+      settle_by_events(occluders, sources, usual_event_edges, {}, by_events);
+      for (const Face_id face : found.undecided) std::cout << scene.name << ": face " << face << " is left open\n";
+      left += found.undecided.size();
+      hidden += by_events.unproved.size();
+      visible += by_events.visible.size();
+      EXPECT_TRUE(
+          std::includes(by_events.visible.begin(), by_events.visible.end(), found.visible.begin(), found.visible.end()))
+          << scene.name;
+      EXPECT_TRUE(
+          std::includes(by_events.hidden.begin(), by_events.hidden.end(), found.hidden.begin(), found.hidden.end()))
+          << scene.name;
       const Weak_certificate certificate = weak_certificate(read, {scene.source}, false, found);
-      EXPECT_EQ(certificate.undecided, found.unproved) << scene.name;
+      EXPECT_EQ(certificate.undecided, found.undecided) << scene.name;
       const Verdict verdict = verify_weak(scene.soup, certificate);
       EXPECT_TRUE(verdict.accepted) << scene.name << ": " << verdict.why;
     }
-  std::cout << scenes << " scenes, " << unproved << " faces unproved\n";
-  EXPECT_GE(open, 2u);
-  EXPECT_LE(unproved, scenes / 300);  // 3 of 3,003: lines that are 2^-40 from concurrent, a limit on the page
+  std::cout << scenes << " scenes, of what was left open " << hidden << " faces hidden, " << left << " still open\n";
+  EXPECT_GE(hidden, 2u);
+  EXPECT_GE(visible, 1u);
+  EXPECT_EQ(left, 0u);
+}
+
+/// A cell that is 2^-40 thin, beside three lines that nearly meet in a point: doubles find no line in it.
+TEST(Left_open, cells_thinner_than_doubles_tell_apart_hold_lines_that_are_found) {
+  for (const auto& [name, seed] : {std::pair{"shared_edges", 41u}, {"boxes", 98u}, {"concurrent_edges", 13u}})
+    for (const weak_scenes::Family& family : weak_scenes::families()) {
+      if (family.name != name) continue;
+      const weak_scenes::Weak_scene scene = family.make(seed);
+      const Scene read(scene.soup);
+      const Occluders occluders(read);
+      const std::vector<Weak_source> sources{weak_source(occluders, scene.source)};
+      Weakly_visible found = weakly_visible(occluders, sources);
+      EXPECT_FALSE(found.undecided.empty()) << scene.name << ": nothing to do";
+      search_thoroughly(occluders, sources, {}, found);
+      EXPECT_TRUE(found.undecided.empty() && found.open.empty()) << scene.name;
+    }
 }
 
 /// What is undecided with so few cells and edges, over and over, and after all of it.

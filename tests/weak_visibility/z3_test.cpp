@@ -47,6 +47,7 @@ void ask_both(const Weak_scene& scene, Opinions& sum) {
   lines.search.cells = 2000;
   Weakly_visible found = weakly_visible(occluders, sources, lines);
   const std::vector<Face_id> left_open = found.undecided;
+  search_thoroughly(occluders, sources, lines, found);
   settle_by_events(occluders, sources, 300, {}, found);
 
   bool agree = true;

@@ -3,10 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
-#include <utility>
 
 namespace sightline {
+namespace {
+
+/// Weights of few bits, all of them positive.
+std::vector<Integer> whole_weights(const std::vector<double>& weights) {
+  std::vector<Integer> whole;
+  for (const double w : weights) whole.push_back(Integer(std::max(1.0, std::round(std::ldexp(w, 20)))));
+  return whole;
+}
+
+std::vector<double> near_weights(const std::vector<Integer>& weights) {
+  const Integer sum = std::accumulate(weights.begin(), weights.end(), Integer(0));
+  std::vector<double> near;
+  for (const Integer& w : weights) near.push_back(nearest_double(Rational(w, sum)));
+  return near;
+}
+
+}  // namespace
 
 Line_weights Line_weights::middle(const Line_domain& domain) {
   const std::size_t m = domain.source.size(), n = domain.target.size();
@@ -35,63 +52,70 @@ bool Line_finder::find(const Line_cell& cell, Line_weights& line, Weak_counters&
   return false;
 }
 
+Line_finder::Whole_rows Line_finder::whole_rows(const Line_cell& cell) {
+  Whole_rows rows(cell.rows.size(), std::vector<Integer>(cell.pairs()));
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t c = 0; c < rows[k].size(); ++c) {
+      const Rational value = times_power(cell.exact_value(k, c), bits);
+      mpz_fdiv_q(rows[k][c].get_mpz_t(), value.get_num_mpz_t(), value.get_den_mpz_t());
+    }
+  return rows;
+}
+
 bool Line_finder::find_exactly(const Line_cell& cell, Line_weights& line, Weak_counters& counters) {
   const std::size_t m = cell.domain->source.size(), n = cell.domain->target.size();
-  line.exact_source.clear();
-  line.exact_target.clear();
-  for (const double w : line.source) line.exact_source.push_back(exact(w));
-  for (const double w : line.target) line.exact_target.push_back(exact(w));
+  const Whole_rows whole = whole_rows(cell);
+  line.exact_source = whole_weights(line.source);
+  line.exact_target = whole_weights(line.target);
   for (int round = 0; round < 4; ++round) {
     const bool source = round % 2 == 0;
-    const std::size_t own = source ? m : n;
-    // The values of the other end's weights, exactly; rounded, a game in doubles; its basis, exactly.
-    ++counters.exact_programs;
-    std::vector<std::vector<Rational>> rows(cell.rows.size(), std::vector<Rational>(own));
-    game_.restart(own);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      Rational most;
+    std::vector<Integer>& own = source ? line.exact_source : line.exact_target;
+    const std::vector<Integer>& fixed = source ? line.exact_target : line.exact_source;
+    // 1. The game of this end's vertices, for the other end as it is.
+    std::vector<std::vector<Integer>> rows(whole.size(), std::vector<Integer>(own.size()));
+    for (std::size_t k = 0; k < whole.size(); ++k)
       for (std::size_t i = 0; i < m; ++i)
-        for (std::size_t j = 0; j < n; ++j)
-          rows[k][source ? i : j] +=
-              (source ? line.exact_target[j] : line.exact_source[i]) * cell.exact_value(k, i * n + j);
-      for (const Rational& v : rows[k]) most = std::max(most, Rational(abs(v)));
-      const long scale =
-          static_cast<long>(bit_length(most.get_den())) - static_cast<long>(bit_length(most.get_num())) - 1;
-      const std::span<double> values = game_.add_row();
-      for (std::size_t c = 0; c < own; ++c) {
-        rows[k][c] = times_power(std::move(rows[k][c]), scale);  // within [-1, 1]
-        values[c] = nearest_double(rows[k][c]);
+        for (std::size_t j = 0; j < n; ++j) rows[k][source ? i : j] += fixed[source ? j : i] * whole[k][i * n + j];
+    ++counters.exact_programs;
+    exact_game_.restart(own.size());
+    for (const std::vector<Integer>& row : rows) {
+      std::size_t longest = 0;
+      for (const Integer& v : row) longest = std::max(longest, bit_length(v));
+      const std::span<Rational> values = exact_game_.add_row();
+      for (std::size_t c = 0; c < own.size(); ++c)
+        values[c] = times_power(Rational(row[c]), -static_cast<long>(longest));  // within [-1, 1]
+    }
+    const Rational margin = exact_game_.solve();
+    const auto keeps_half_of_it = [&] {
+      const Rational least = margin / 2 * std::accumulate(own.begin(), own.end(), Integer(0));
+      for (std::size_t k = 0; k < exact_game_.rows(); ++k) {
+        Rational sum;
+        for (std::size_t c = 0; c < own.size(); ++c) sum += own[c] * exact_game_.row(k)[c];
+        if (sum < least) return false;
       }
-    }
-    game_.solve();
-    std::vector<Rational> solved, weights(own);
-    Rational value;
-    const std::vector<std::size_t>& columns = game_.tight_columns();
-    if (!solve_basis(
-            columns, game_.tight_rows(), [&](std::size_t c, std::size_t k) { return rows[k][c]; }, solved, value))
-      return false;
-    for (std::size_t c = 0; c < columns.size(); ++c) {
-      if (sgn(solved[c]) < 0) return false;
-      weights[columns[c]] = solved[c];
-    }
-    Rational least = 1;  // of the means of rows
-    for (const std::vector<Rational>& row : rows) {
-      Rational sum, mean;
-      for (std::size_t c = 0; c < own; ++c) {
-        sum += weights[c] * row[c];
-        mean += row[c] / static_cast<long>(own);
+      return true;
+    };
+    // 2. Its best weights, in so many bits, all of them positive: `even` times as much for all.
+    const auto set_weights = [&](long many, long even) {
+      for (std::size_t c = 0; c < own.size(); ++c) {
+        const Rational weight = times_power(exact_game_.column_weights()[c], many);
+        mpz_fdiv_q(own[c].get_mpz_t(), weight.get_num_mpz_t(), weight.get_den_mpz_t());
+        own[c] += Integer(1) << static_cast<mp_bitcnt_t>(even);
       }
-      value = std::min(value, sum);
-      least = std::min(least, mean);
+    };
+    if (sgn(margin) <= 0) {
+      set_weights(bits, 0);
+      continue;
     }
-    (source ? line.exact_source : line.exact_target) = weights;
-    if (sgn(value) <= 0) continue;
-    // This end off the polygon's boundary, by a step that keeps half of the margin.
-    const Rational half(1, 2),
-        step = least >= value / 2 ? half : std::min(half, Rational(value / (4 * (value - least))));
-    for (Rational& w : source ? line.exact_source : line.exact_target)
-      w = (1 - step) * w + step / static_cast<long>(own);
-    return make_positive(cell, line, source);
+    for (long many = 32; many <= bits; many *= 2)
+      for (long even = many - 1; even > 0; even /= 2) {
+        set_weights(many, even);
+        if (keeps_half_of_it()) {
+          line.source = near_weights(line.exact_source);
+          line.target = near_weights(line.exact_target);
+          return true;
+        }
+      }
   }
   return false;
 }
@@ -124,31 +148,6 @@ double Line_finder::improve(const Line_cell& cell, Line_weights& line, bool sour
   if (value > 0)
     for (double& w : weights) w = (1 - step) * w + step / static_cast<double>(own);
   return value;
-}
-
-bool Line_finder::make_positive(const Line_cell& cell, Line_weights& line, bool source) {
-  const std::size_t m = cell.domain->source.size(), n = cell.domain->target.size();
-  std::vector<Rational>& weights = source ? line.exact_target : line.exact_source;
-  for (Rational step(1, 2);; step /= 1024) {
-    std::vector<Rational> moved;
-    for (const Rational& w : weights) moved.push_back((1 - step) * w + step / static_cast<long>(weights.size()));
-    const std::vector<Rational>&s = source ? line.exact_source : moved, &t = source ? moved : line.exact_target;
-    bool inside = true;
-    for (std::size_t k = 0; k < cell.rows.size() && inside; ++k) {
-      Rational sum;
-      for (std::size_t i = 0; i < m; ++i)
-        for (std::size_t j = 0; j < n; ++j) sum += s[i] * t[j] * cell.exact_value(k, i * n + j);
-      inside = sgn(sum) > 0;
-    }
-    if (inside) {
-      weights = moved;
-      break;
-    }
-    if (bit_length(step.get_den()) > 4000) return false;
-  }
-  for (std::size_t i = 0; i < m; ++i) line.source[i] = nearest_double(line.exact_source[i]);
-  for (std::size_t j = 0; j < n; ++j) line.target[j] = nearest_double(line.exact_target[j]);
-  return true;
 }
 
 }  // namespace sightline

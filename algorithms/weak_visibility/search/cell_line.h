@@ -13,7 +13,8 @@ namespace sightline {
 /// A line between two polygons: weights of their vertices, each with sum 1.
 struct Line_weights {
   std::vector<double> source, target;
-  std::vector<Rational> exact_source, exact_target;  ///< where doubles are too coarse to be in the cell
+  /// In proportion to exact weights, all positive; where doubles are too coarse to be in the cell.
+  std::vector<Integer> exact_source, exact_target;
 
   static Line_weights middle(const Line_domain& domain);
 };
@@ -24,18 +25,24 @@ class Line_finder {
   /// Improves one end for the other, in turn, until a line is strictly in the cell; then once more, to be well inside.
   bool find(const Line_cell& cell, Line_weights& line, Weak_counters& counters);
 
-  /// The same in rationals. Exact: yes.
+  /// The same in integers, for cells that are thinner than what doubles tell apart. Exact: yes, a line that it finds
+  /// is in the cell; one that is there may be missed. Cost: four games of a few hundred bits.
   bool find_exactly(const Line_cell& cell, Line_weights& line, Weak_counters& counters);
 
  private:
   static constexpr double least_margin = 1e-11;
 
+  /// A cell's rows in units of 2^-`bits` of the least power of two above their entries, each rounded down: a mixture of
+  /// pairs that is positive here is so in the cell.
+  using Whole_rows = std::vector<std::vector<Integer>>;
+  static constexpr long bits = 192;
+
+  static Whole_rows whole_rows(const Line_cell& cell);
+
   double improve(const Line_cell& cell, Line_weights& line, bool source, Weak_counters& counters);
 
-  /// Gives the vertices of the fixed end some weight each, so little that the line stays strictly in the cell.
-  static bool make_positive(const Line_cell& cell, Line_weights& line, bool source);
-
   Matrix_game<double> game_;
+  Matrix_game<Rational> exact_game_;
 };
 
 }  // namespace sightline

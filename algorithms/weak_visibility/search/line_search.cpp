@@ -16,9 +16,10 @@ constexpr std::size_t deepest = 1000;
 // nothing.
 constexpr int forms_after = 2, special_after = 3, smallest = 80, most_sectors = 24;
 constexpr double close = 1e-12;  // to an edge, where its own row of the domain tells more; doubles err by a hundredth
-constexpr std::size_t many = 1000;  // candidates: those near a line are sooner found in the tree of boxes
-constexpr float edges_for_all = 6;  // of 0 to 20, what takes the fewest cells among random triangles
-constexpr double thin = 1e-8;       // what doubles leave to exact programs
+constexpr std::size_t many = 1000;         // candidates: those near a line are sooner found in the tree of boxes
+constexpr float edges_for_all = 6;         // of 0 to 20, what takes the fewest cells among random triangles
+constexpr double thin = 1e-8;              // what doubles leave to exact programs
+constexpr std::size_t random_starts = 32;  // of lines that are moved into thin cells; eight leave some unfound
 
 /// Dear proofs are tried again only once the polygons have become much smaller: after 2, 3, 5, 8, ... steps.
 bool is_worth_it(int narrowed) {
@@ -156,12 +157,12 @@ void Line_search::weigh_candidates(std::uint32_t d) {
     for (Candidate& candidate : domain.candidates) candidate.share /= static_cast<float>(samples);
 }
 
-Line_weights Line_search::random_line(const Line_domain& domain) {
+Line_weights Line_search::random_line(const Line_domain& domain, int power) {
   std::uniform_real_distribution<double> unit(0.05, 1);
   Line_weights line = Line_weights::middle(domain);
   for (std::vector<double>* weights : {&line.source, &line.target}) {
     double sum = 0;
-    for (double& w : *weights) sum += w = std::pow(unit(dice_), 3);
+    for (double& w : *weights) sum += w = std::pow(unit(dice_), power);
     for (double& w : *weights) w /= sum;
   }
   return line;
@@ -248,12 +249,12 @@ Line_search::Refutation Line_search::cut(std::uint32_t d, const Cell_cut& by, Pa
 
 Line_search::Refutation Line_search::narrow(std::uint32_t d, std::size_t depth) {
   if (domains_[d]->narrowed > smallest) return open();
-  if (options_->hidden || domains_[d]->narrowed >= special_after)
+  if (options_->thorough || domains_[d]->narrowed >= special_after)
     if (const std::optional<Cell_cut> plane = common_plane(cell_, *occluders_)) {
       ++counters_->cuts;
       return cut(d, *plane, [this, depth](std::uint32_t part) { return refute(part, depth + 1); });
     }
-  if (options_->hidden && domains_[d]->sectors < most_sectors)
+  if (options_->thorough && domains_[d]->sectors < most_sectors)
     if (const std::optional<Cell_cut> plane = sector_plane(cell_, *source_plane_, *target_plane_)) {
       ++counters_->cuts;
       return cut(d, *plane, [this, depth](std::uint32_t part) {
@@ -495,7 +496,7 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
 
   // 3. What takes longer.
   if (ends_with(proofs_.at_corner(cell_, proof, *counters_))) return Look::ended;
-  const bool worth_it = is_worth_it(domain.narrowed) || options_->hidden;
+  const bool worth_it = is_worth_it(domain.narrowed) || options_->thorough;
   if (value < thin && (worth_it || domain.narrowed < forms_after)) {
     if (relaxation == Relaxation::unclear && ends_with(proofs_.by_exact_relaxation(cell_, proof, *counters_)))
       return Look::ended;
@@ -504,8 +505,13 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
       if (finder_.find_exactly(cell_, line, *counters_)) return Look::found;
     }
   }
-  if (worth_it && ends_with(proofs_.by_forms(cell_, true, options_->hidden, proof, *counters_) ||
-                            proofs_.by_forms(cell_, false, options_->hidden, proof, *counters_)))
+  if (options_->thorough && (domain.narrowed < forms_after || is_worth_it(domain.narrowed)))
+    for (std::size_t k = 0; k < random_starts; ++k) {
+      line = random_line(domain, k % 2 == 0 ? 3 : 15);
+      if (finder_.find_exactly(cell_, line, *counters_)) return Look::found;
+    }
+  if (worth_it && ends_with(proofs_.by_forms(cell_, true, options_->thorough, proof, *counters_) ||
+                            proofs_.by_forms(cell_, false, options_->thorough, proof, *counters_)))
     return Look::ended;
   return Look::unclear;
 }
@@ -599,8 +605,8 @@ std::optional<std::uint32_t> Line_search::confirm(const Line_domain& domain, con
       for (std::vector<double>* weights : {&moved.source, &moved.target})
         for (double& w : *weights) w *= unit(dice_);
     const auto rounded = [&](const std::vector<double>& weights) {
-      std::vector<Rational> result;
-      for (const double w : weights) result.push_back(Rational(std::max(1.0, std::round(std::ldexp(w, bits[k])))));
+      std::vector<Integer> result;
+      for (const double w : weights) result.push_back(Integer(std::max(1.0, std::round(std::ldexp(w, bits[k])))));
       return result;
     };
     if (is_free(inner_point(domain.source, rounded(moved.source)), inner_point(domain.target, rounded(moved.target))))
@@ -610,17 +616,14 @@ std::optional<std::uint32_t> Line_search::confirm(const Line_domain& domain, con
   return blocker;
 }
 
-Near_point Line_search::inner_point(const Near_polygon& polygon, const std::vector<Rational>& weights) const {
-  std::array<Rational, 4> sum;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k)
-      sum[k] += weights[i] * Rational(polygon[i].exact[k]) / Rational(polygon[i].exact[3]);
-    sum[3] += weights[i];
-  }
+Near_point Line_search::inner_point(const Near_polygon& polygon, const std::vector<Integer>& weights) const {
   Integer common = 1;
-  for (const Rational& x : sum) common = lcm(common, x.get_den());
+  for (const Near_point& corner : polygon) common = lcm(common, corner.exact[3]);
   std::array<Integer, 4> exact;
-  for (std::size_t k = 0; k < 4; ++k) exact[k] = sum[k].get_num() * (common / sum[k].get_den());
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Integer weight = weights[i] * (common / polygon[i].exact[3]);
+    for (std::size_t k = 0; k < 4; ++k) exact[k] += weight * polygon[i].exact[k];
+  }
   return near_point(occluders_->frame(), exact);
 }
 

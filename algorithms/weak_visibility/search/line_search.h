@@ -84,7 +84,8 @@ class Line_search {
 
   /// Notes how much each candidate blocks, by samples; the fewer there are, the fewer samples.
   void weigh_candidates(std::uint32_t d);
-  Line_weights random_line(const Line_domain& domain);
+  /// The higher the power, the nearer to a pair of vertices.
+  Line_weights random_line(const Line_domain& domain, int power = 3);
 
   // ---- A cell
 
@@ -164,7 +165,7 @@ class Line_search {
   /// is in the way, or none.
   std::optional<std::uint32_t> confirm(const Line_domain& domain, const Line_weights& line);
   /// Pre: positive weights.
-  Near_point inner_point(const Near_polygon& polygon, const std::vector<Rational>& weights) const;
+  Near_point inner_point(const Near_polygon& polygon, const std::vector<Integer>& weights) const;
 
   std::vector<Weak_step> in_order(std::uint32_t root) const;
 
