@@ -2,11 +2,16 @@
 
 #include "fuzz.h"
 
+#include <sightline/io/input.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 #include <sightline/io/exact_text.h>
 
+#include <algorithm>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sightline::app {
 
@@ -95,6 +100,78 @@ harness::Outcome as_others_write(const Polygon_soup& soup, Format format, genera
   }
 }
 
+/// A text with one wrong word, and where that is.
+struct Marred {
+  std::string text;
+  std::size_t line = 0, column = 0;  // from 1
+};
+
+/// One number of a point or of a face becomes none, or names a point that is not there. Pre: `text` as write_scene
+/// writes it, of so many points; there is one.
+Marred marred(const std::string& text, Format format, std::size_t points, generate::Random& random) {
+  // The last two stand for a point and what else a corner of an .obj has.
+  static constexpr const char* none[] = {"q", "1.2.3", "1e", "--1", "+-2", ".", "1/0", "1//2"};
+  // 1. The lines that may be it, each with the number of words before its first number.
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  if (lines[0][0] == '#' && random.chance(1, 2)) lines.erase(lines.begin());
+  std::vector<std::size_t> chosen;
+  bool is_data = format != Format::ply;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (format == Format::obj ? lines[k][0] != '#' : is_data && k > 1) chosen.push_back(k);
+    is_data = is_data || lines[k] == "end_header";
+  }
+  const std::size_t place = chosen[random.below(chosen.size())];
+  const bool is_face = format == Format::obj ? lines[place][0] == 'f' : place >= chosen[0] + points;
+  // 2. One of its words.
+  std::vector<std::pair<std::size_t, std::size_t>> words;  // begin, end
+  std::string& line = lines[place];
+  for (std::size_t at = 0; at < line.size();) {
+    const std::size_t end = std::min(line.find(' ', at), line.size());
+    words.push_back({at, end});
+    at = end + 1;
+  }
+  const std::size_t first = format == Format::obj ? 1 : 0, which = first + random.below(words.size() - first);
+  const bool names_a_point = is_face && which > 0;
+  const auto [begin, end] = words[which];
+  std::string word = none[random.below(names_a_point ? 6 : 8)];
+  if (names_a_point && random.chance(1, 2)) {
+    const std::size_t beyond = format == Format::obj ? points + 1 : points;
+    word = random.chance(1, 2) ? std::to_string(beyond) : format == Format::obj ? "0" : "-1";
+  }
+  line.replace(begin, end - begin, word);
+  Marred result{{}, place + 1, begin + 1};
+  // 3. With any end of lines, and perhaps a byte order mark.
+  static constexpr const char* ends[] = {"\n", "\r\n", "\r"};
+  const std::string end_of_line = ends[random.below(3)];
+  if (random.chance(1, 4)) result.text = byte_order_mark;
+  for (const std::string& l : lines) result.text += l + end_of_line;
+  return result;
+}
+
+harness::Outcome refused_with_its_place(const Polygon_soup& soup, Format format, generate::Random& random) {
+  if (soup.point_count() == 0) return harness::Outcome::not_applicable();
+  std::stringstream stream;
+  try {
+    write_scene(soup, stream, format);
+  } catch (const Not_representable&) {
+    return harness::Outcome::not_applicable();
+  }
+  const std::string text = stream.str();
+  const std::size_t points = read_scene(text, format, "as it was").point_count();
+  const Marred wrong = marred(text, format, points, random);
+  try {
+    read_scene(wrong.text, format, "marred");
+  } catch (const Input_error& error) {
+    if (error.line == wrong.line && error.column == wrong.column) return {};
+    return harness::Outcome::failed("line " + std::to_string(wrong.line) + ", column " + std::to_string(wrong.column) +
+                                    " is wrong, and told is " + error.what());
+  }
+  return harness::Outcome::failed("line " + std::to_string(wrong.line) + ", column " + std::to_string(wrong.column) +
+                                  " is wrong, and is read");
+}
+
 /// Nothing is asked of faces: formats are compared with the scene itself.
 harness::Answer nothing(const generate::Posed_scene& posed) {
   harness::Answer answer;
@@ -131,6 +208,17 @@ harness::Subject io_subject() {
   add_dressed("dressed off", Format::off);
   add_dressed("dressed obj", Format::obj);
   add_dressed("dressed ply", Format::ply);
+  const auto add_marred = [&](const char* name, Format format) {
+    subject.checks.push_back(
+        {name, "refused where a number is none, or names no point, with its line and column",
+         [format](const generate::Posed_scene& posed, const harness::Answer&, generate::Random& random) {
+           return refused_with_its_place(posed.soup, format, random);
+         }});
+  };
+  add_marred("marred qoff", Format::qoff);
+  add_marred("marred off", Format::off);
+  add_marred("marred obj", Format::obj);
+  add_marred("marred ply", Format::ply);
   return subject;
 }
 
