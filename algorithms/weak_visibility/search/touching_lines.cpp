@@ -10,7 +10,7 @@
 namespace sightline {
 namespace {
 
-constexpr std::size_t most_bounds = 24;
+constexpr std::size_t most_bounds = 24, most_tries = 8;
 // Of lines with entries up to 1, in doubles: what is taken for 0, and for a side that is passed.
 constexpr double nothing = 1e-9, past = 1e-7;
 
@@ -258,31 +258,37 @@ std::vector<Touching_line> touching_lines(const Line_cell& cell, const Near_plan
   const std::size_t n = bounds.size();
   std::vector<Touching_line> found;
   if (n > most_bounds) return found;
-  std::vector<Pluecker> seen;
-  const auto is_new = [&](const Pluecker& line) {
-    return std::none_of(seen.begin(), seen.end(), [&](const Pluecker& other) {
+  // Lines by doubles, each with how often fours that seem to meet it were solved exactly; where edges are ulps from
+  // meeting one line there are thousands of those.
+  struct Seen {
+    Pluecker line;
+    std::size_t tries;
+  };
+  std::vector<Seen> seen;
+  const auto is_worth_it = [&](const Pluecker& line) {
+    for (Seen& other : seen) {
       double same = 0, opposite = 0;
       for (std::size_t x = 0; x < 6; ++x) {
-        same = std::max(same, std::fabs(line[x] - other[x]));
-        opposite = std::max(opposite, std::fabs(line[x] + other[x]));
+        same = std::max(same, std::fabs(line[x] - other.line[x]));
+        opposite = std::max(opposite, std::fabs(line[x] + other.line[x]));
       }
-      return std::min(same, opposite) < nothing;
-    });
+      if (std::min(same, opposite) < nothing) return other.tries++ < most_tries;
+    }
+    seen.push_back({line, 1});
+    return true;
   };
   const auto look = [&](const Four& four) {
     const std::vector<Pluecker> near = near_lines(four);
     if (std::none_of(near.begin(), near.end(), [&](const Pluecker& line) {
-          return nearly_touches(cell, bounds, line, source_plane, target_plane) && is_new(line);
+          return nearly_touches(cell, bounds, line, source_plane, target_plane) && is_worth_it(line);
         }))
       return;
     for (const Exact_pluecker& line : rational_lines(four))
       if (std::optional<Touching_line> touched = touching(cell, bounds, line, source_plane, target_plane);
           touched && std::none_of(found.begin(), found.end(), [&](const Touching_line& other) {
             return other.from == touched->from && other.to == touched->to;
-          })) {
+          }))
         found.push_back(std::move(*touched));
-        seen.insert(seen.end(), near.begin(), near.end());
-      }
   };
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j)
