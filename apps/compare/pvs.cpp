@@ -176,11 +176,11 @@ std::size_t refutations(const Cells_question& question, const Quake_level& file,
 
 // ---- Sizes
 
-/// A pair that a method hides, what shows that it is wrong, and how large that looks from there.
+/// A pair that a method hides, what shows that it is wrong, and what is seen of the face from there.
 struct Sight {
   Cell_id cell;
   Cell_sightline line;
-  double pixels;
+  Seen_face seen;
 };
 
 /// Of a sample of such pairs, as many as there is time for.
@@ -189,8 +189,8 @@ std::vector<Sight> sights_of(const Json& sample, Cell_sights& sights, const Cell
   try {
     for (const Json& pair : sample)
       for (Cell_sightline& line : sights.sightlines(pair[0], {pair[1].get<Face_id>()}, is_over)) {
-        const double pixels = sights.size(line.from, line.face, is_over);
-        all.push_back({pair[0], std::move(line), pixels});
+        Seen_face seen = sights.seen(line.from, line.face, is_over);
+        all.push_back({pair[0], std::move(line), std::move(seen)});
       }
   } catch (const Out_of_budget&) {
   }
@@ -207,25 +207,27 @@ Screen_sizes sizes_alone(const Json& sample, const Cell_sights& sights, const Ce
   return sizes;
 }
 
-/// What draws what a sightline shows: ten times as wide as a square of its size, but no wider than 90 degrees.
+/// What draws a face as it is seen, the largest part of it in the middle, a twentieth of the picture wide unless that
+/// took more than 90 degrees.
 std::string drawing_of(const std::string& scene, const Sight& sight) {
   constexpr double degree = std::numbers::pi / 180;
-  const auto& [face, from, to] = sight.line;
-  const double wide = std::clamp(10 * std::sqrt(sight.pixels * pixel_angle) / degree, least_field, 90.0);
+  const double field = std::clamp(20 * sight.seen.width / degree, least_field, 90.0);
   std::string eye, look;
   for (std::size_t k = 0; k < 3; ++k) {
-    eye += (k > 0 ? "," : "") + to_string(from[k]);
-    look += fmt::format("{}{}", k > 0 ? "," : "", nearest_double(Rational(to[k] - from[k])));
+    const Rational& from = sight.line.from[k];
+    eye += (k > 0 ? "," : "") + to_string(from);
+    look += fmt::format("{}{}", k > 0 ? "," : "", nearest_double(Rational(sight.seen.middle[k] - from)));
   }
   return fmt::format("sightline see {} --eye={} --look={} --field {:.3g} --svg face-{}.svg", shell_word(scene), eye,
-                     look, wide, face);
+                     look, field, sight.line.face);
 }
 
 /// The largest first.
 Json sightlines_json(const Cells_question& question, const std::string& scene, const Space_tree& tree,
                      std::vector<Sight> sights) {
   constexpr std::size_t most = 20;
-  std::stable_sort(sights.begin(), sights.end(), [](const Sight& a, const Sight& b) { return a.pixels > b.pixels; });
+  std::stable_sort(sights.begin(), sights.end(),
+                   [](const Sight& a, const Sight& b) { return a.seen.pixels > b.seen.pixels; });
   sights.resize(std::min(sights.size(), most));
   Json all = Json::array();
   for (const Sight& sight : sights)
@@ -235,7 +237,7 @@ Json sightlines_json(const Cells_question& question, const std::string& scene, c
                    {"from", point_json(sight.line.from)},
                    {"to", point_json(sight.line.to)},
                    {"through", leaves_along(tree, sight.line.from, sight.line.to)},
-                   {"pixels", sight.pixels},
+                   {"pixels", sight.seen.pixels},
                    {"draw", drawing_of(scene, sight)}});
   return all;
 }
@@ -373,7 +375,7 @@ Exit compare_cells(const Compare_arguments& arguments) {
     const Cell_sights::Is_over is_over = Time_limit(common.budget).end();
     const std::vector<Sight> hidden = sights_of(r["sample"]["wrongly_hidden"], sights, is_over);
     Screen_sizes of_hidden;
-    for (const Sight& sight : hidden) of_hidden.add(sight.pixels);
+    for (const Sight& sight : hidden) of_hidden.add(sight.seen.pixels);
     const Screen_sizes of_visible = sizes_alone(r["sample"]["wrongly_visible"], sights, is_over);
     r["sizes"] = {{"wrongly_hidden", sizes_json(of_hidden)}, {"wrongly_visible", sizes_json(of_visible)}};
     r.erase("sample");

@@ -58,10 +58,10 @@ std::vector<Cell_sightline> Cell_sights::sightlines(Cell_id cell, const std::vec
   return all;
 }
 
-double Cell_sights::size(const Exact_point& eye, Face_id face, const Is_over& is_over) {
-  const std::map<Face_id, Seen_face>& seen = seen_from(eye, is_over);
-  const auto place = seen.find(face);
-  return place == seen.end() ? 0 : place->second.pixels;
+Seen_face Cell_sights::seen(const Exact_point& eye, Face_id face, const Is_over& is_over) {
+  const std::map<Face_id, Seen_face>& all = seen_from(eye, is_over);
+  const auto place = all.find(face);
+  return place == all.end() ? Seen_face() : place->second;
 }
 
 const std::map<Face_id, Seen_face>& Cell_sights::seen_from(const Exact_point& eye, const Is_over& is_over) {

@@ -34,8 +34,8 @@ class Cell_sights {
   /// portal. Errors: Out_of_budget.
   std::vector<Cell_sightline> sightlines(Cell_id cell, const std::vector<Face_id>& faces, const Is_over& is_over);
 
-  /// In pixels, what of a face is seen from a point; 0: nothing. Errors: Out_of_budget.
-  double size(const Exact_point& eye, Face_id face, const Is_over& is_over);
+  /// What of a face is seen from a point; of no pixels: nothing. Errors: Out_of_budget.
+  Seen_face seen(const Exact_point& eye, Face_id face, const Is_over& is_over);
 
   /// In pixels, how large a face would look from the cell's middle with nothing before it: what is drawn for nothing
   /// where the cell does not see it. 0 where it turns away from there.

@@ -25,9 +25,10 @@ struct Screen_sizes {
   std::size_t measured() const;
 };
 
-/// What an eye sees of a face, and of it the middle of the largest part.
+/// What an eye sees of a face, and of it the largest part: the mean of its corners, and how wide it looks, in radians:
+/// its solid angle divided by its length, the largest angle between two of its corners.
 struct Seen_face {
-  double pixels = 0;
+  double pixels = 0, width = 0;
   Exact_point middle;
 };
 /// Of each face that the eye sees from its front. Which faces and parts these are is exact, their sizes are right to
