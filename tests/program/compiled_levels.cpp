@@ -1,5 +1,6 @@
 // Compiled levels: their own table of what leaves see against the exact one, and a copy that has that.
 
+#include "flaw.h"
 #include "program.h"
 
 #include <sightline/io/binary.h>
@@ -85,7 +86,9 @@ class Compiled_levels : public Program {
   Json compared_faces(const std::string& name) {
     const Outcome r = run({"compare", name, "pvs", "--rays", "1000", "--json", "-"});
     EXPECT_EQ(r.code, done) << r;
-    return r.json()["result"];
+    const Json schema = run({"schema", "compare"}).json(), written = r.json();
+    EXPECT_EQ(flaw(written, schema, schema, "compare"), "");
+    return written["result"];
   }
   Json compared(const std::string& name) { return compared_faces(name)["leaves"]; }
   static Json row_of(const Json& rows, const std::string& method) {
