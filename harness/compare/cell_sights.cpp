@@ -39,8 +39,8 @@ std::vector<Cell_sightline> Cell_sights::sightlines(Cell_id cell, const std::vec
       sources.push_back(weak_source(*occluders_, portal));
     const Scene& scene = level_->scene();
     for (const Weakly_visible::Pair& pair : weakly_visible(*occluders_, sources, options).pairs) {
+      if (pair.answer.status != Weak_status::visible) continue;
       const Face_id face = scene.pieces()[pair.piece].face;
-      if (pair.answer.status != Weak_status::visible || found.contains(face)) continue;
       const Exact_point through = scene.position(pair.answer.sightline[0].exact),
                         to = scene.position(pair.answer.sightline[1].exact);
       Exact_point from;  // as far back as doubling the way goes within the cell

@@ -87,8 +87,9 @@ TEST(Screen_sizes, have_the_middle_of_the_largest_part) {
   EXPECT_NEAR(seen.pixels, 2 * pixels_by_hand(3, 1, 2) + 2 * (pixels_by_hand(3, 1, 2) - pixels_by_hand(1, 1, 2)), 1e-6);
 }
 
-/// Two rooms of 8 x 8 x 8 about x = 0, and a hole of one unit in the wall between them, which has no thickness. Faces 0
-/// to 3 are the wall's front to the first room, 4 to 7 to the second, 14 and 15 the sides of a panel in that.
+/// Two rooms, 7 and 8 units long, 8 wide and high, about x = 0, and a hole of one unit in the wall between them, which
+/// has no thickness. Faces 0 to 3 are the wall's front to the first room, 4 to 7 to the second, from 14 on the sides of
+/// panels in that.
 struct Two_rooms {
   Polygon_soup soup;
   Level_cells level;
@@ -96,10 +97,10 @@ struct Two_rooms {
   Model model;
   Cell_sights sights;
 
-  explicit Two_rooms(const Face_corners& panel)
-      : soup(made(panel)), level(soup), occluders(level.scene()), model(soup), sights(level, occluders, model) {}
+  explicit Two_rooms(const std::vector<Face_corners>& panels)
+      : soup(made(panels)), level(soup), occluders(level.scene()), model(soup), sights(level, occluders, model) {}
 
-  static Polygon_soup made(const Face_corners& panel) {
+  static Polygon_soup made(const std::vector<Face_corners>& panels) {
     std::vector<Face_corners> faces;
     const Rational l = ratio(-1, 2), h = ratio(1, 2);
     const auto wall = [](const Rational& y0, const Rational& y1, const Rational& z0, const Rational& z1) {
@@ -108,7 +109,7 @@ struct Two_rooms {
     for (const Face_corners& part : {wall(-4, 4, -4, l), wall(-4, 4, h, 4), wall(-4, l, l, h), wall(h, 4, l, h)})
       faces.push_back(part);
     for (std::size_t k = 0; k < 4; ++k) faces.push_back(turned_round(faces[k]));
-    const Exact_point a{-8, -4, -4}, b{8, 4, 4};
+    const Exact_point a{-7, -4, -4}, b{8, 4, 4};
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (const bool high : {false, true}) {
         Face_corners side;
@@ -122,28 +123,34 @@ struct Two_rooms {
         }
         faces.push_back(high ? turned_round(side) : side);
       }
-    faces.push_back(panel);
-    faces.push_back(turned_round(panel));
+    for (const Face_corners& panel : panels) {
+      faces.push_back(panel);
+      faces.push_back(turned_round(panel));
+    }
     return test_scenes::soup_of(faces);
   }
 };
-/// Behind the hole: from the middle of the first room it hides what it does not from nearer. And in a plane with that
-/// middle, which sees it edge-on.
-const Face_corners panel_across{at(2, -1, -1), at(2, 1, -1), at(2, 1, 1), at(2, -1, 1)},
-    panel_along{at(3, 0, -1), at(5, 0, -1), at(5, 0, 1), at(3, 0, 1)};
+/// Behind the hole: from the middle of the first room it hides what it does not from nearer.
+const std::vector<Face_corners> panel_across{{at(2, -1, -1), at(2, 1, -1), at(2, 1, 1), at(2, -1, 1)}};
+/// In a plane with that middle, which sees it edge-on; and behind it a square, of which it sees all in one part, since
+/// no axis is in the way.
+const Rational near_axis = ratio(1, 20), off_axis = ratio(1, 5), past_axis = ratio(1, 2);
+const std::vector<Face_corners> panel_along{
+    {at(3, 0, 0), at(5, 0, 0), at(5, past_axis, past_axis), at(3, past_axis, past_axis)},
+    {at(6, near_axis, near_axis), at(6, near_axis, off_axis), at(6, off_axis, off_axis), at(6, off_axis, near_axis)}};
 
 struct Shown {
   std::size_t from_middle = 0, through_portals = 0, hidden = 0;
 };
-Shown expect_what_is_visible(const Face_corners& panel) {
-  Two_rooms rooms(panel);
+Shown expect_what_is_visible(const std::vector<Face_corners>& panels) {
+  Two_rooms rooms(panels);
   const Pvs exact = potentially_visible(rooms.level);
   Shown shown;
   for (Cell_id cell = 0; cell < rooms.level.cells().size(); ++cell) {
     if (exact.is_asked[cell] == 0) continue;
     const std::vector<Face_id>& within = rooms.level.cells()[cell].faces;
     std::vector<Face_id> asked, expected, found;
-    for (Face_id face = 0; face < 16; ++face) {
+    for (Face_id face = 0; face < rooms.soup.face_count(); ++face) {
       if (std::binary_search(within.begin(), within.end(), face)) continue;
       asked.push_back(face);
       const std::vector<Face_id>& visible = exact.visible[cell];
@@ -192,7 +199,7 @@ TEST(Cell_sights, of_what_a_cell_does_not_see_are_sizes_from_its_middle) {
   Two_rooms rooms(panel_across);
   const Cell_id cell = rooms.level.at({-4, 0, 0});
   const Exact_point eye = rooms.level.inside(cell);
-  for (Face_id face = 0; face < 16; ++face)
+  for (Face_id face = 0; face < rooms.soup.face_count(); ++face)
     EXPECT_EQ(rooms.sights.size_alone(cell, face), size_alone(rooms.model, eye, face));
   EXPECT_EQ(rooms.sights.seen(eye, 7, {}).pixels, 0) << "it looks into the other room";
 }
