@@ -189,6 +189,8 @@ TEST_F(Compiled_levels, faces_that_tables_hide_are_as_large_as_a_door_leaves_the
   const Json table = row_of(said["rows"], "the file's table");
   const std::size_t hidden = table["errors"]["wrongly_hidden"];
   EXPECT_EQ(said["refuted"], hidden);
+  EXPECT_EQ(table["visible"].get<std::size_t>() + hidden - table["errors"]["wrongly_visible"].get<std::size_t>(),
+            said["visible"]);
   ASSERT_GT(hidden, 4u);
   ASSERT_LE(hidden, 20u) << "all are listed";
   ASSERT_EQ(said["sightlines"].size(), hidden);
@@ -218,6 +220,9 @@ TEST_F(Compiled_levels, faces_that_tables_hide_are_as_large_as_a_door_leaves_the
   EXPECT_EQ(table["sizes"]["wrongly_visible"]["measured"], table["errors"]["wrongly_visible"]);
   EXPECT_GT(table["sizes"]["wrongly_visible"]["largest"], 100);
   EXPECT_EQ(row_of(said["rows"], "flooding")["sizes"]["wrongly_hidden"]["measured"], 0);
+  // A leaf sees itself, whether or not its row says so.
+  const Json same = compared_faces(level("itself.bsp", {0x0f, 0x0b, 0x09, 0x0f}));
+  EXPECT_EQ(row_of(same["rows"], "the file's table")["errors"], table["errors"]);
 }
 
 TEST_F(Compiled_levels, a_row_says_how_to_draw_what_it_shows) {
@@ -234,9 +239,18 @@ TEST_F(Compiled_levels, a_row_says_how_to_draw_what_it_shows) {
     words.back() = path(words.back()).string();
     words.insert(words.end(), {"--certificate", path("seen.json").string()});
     ASSERT_EQ(run(words).code, done) << line;
-    // The face is in the middle, and the certificate has it.
-    const std::string drawn = read_file(path(name + ".svg"));
-    EXPECT_NE(drawn.find("id=\"" + name + "-1\""), std::string::npos) << line;
+    // It shows the face, a small one about a twentieth of 960 wide, and the certificate is right.
+    const std::string drawn = read_file(path(name + ".svg")), before = "id=\"" + name + "-1\" points=\"";
+    const std::size_t at = drawn.find(before);
+    ASSERT_NE(at, std::string::npos) << line;
+    if (line["pixels"] < 1) {
+      std::istringstream corners(drawn.substr(at + before.size()));
+      double least = 960, most = 0, x = 0, y = 0;
+      for (char comma = 0; corners >> x >> comma >> y; most = std::max(most, x)) least = std::min(least, x);
+      EXPECT_GT(most - least, 20) << drawn;
+      EXPECT_LT(most - least, 150) << drawn;
+      EXPECT_NEAR((least + most) / 2, 480, 1);
+    }
     const Outcome checked = run({"verify", path("wrong.bsp").string(), path("seen.json").string()});
     EXPECT_EQ(checked.code, done) << checked;
   }
@@ -258,7 +272,9 @@ TEST_F(Compiled_levels, a_copy_has_the_exact_table) {
   std::string bytes = read_file(wrong);
   const std::size_t leaf_lump = sightline::load<std::uint32_t>(bytes, 4 + 8 * 10, std::endian::little);
   bytes[leaf_lump + 2 * 28] = '\xfe';  // leaf 2: contents -2
-  const Json leaves = compared(file("solid.bsp", bytes));
+  const Json solid = compared_faces(file("solid.bsp", bytes)), &leaves = solid["leaves"];
+  ASSERT_FALSE(solid["sightlines"].empty());
+  for (const Json& line : solid["sightlines"]) EXPECT_EQ(line["leaf"], 3) << "of what is solid a table says nothing";
   EXPECT_EQ(leaves["pairs"], 6);
   EXPECT_EQ(leaves["refuted"], 0);
 }
