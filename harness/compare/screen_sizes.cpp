@@ -31,17 +31,17 @@ static double length_of(const Part& part, const Exact_point& eye) {
 std::map<Face_id, Seen_face> seen_faces(const Model& model, const Exact_point& eye, const Asking& asking) {
   // 1. All parts of each face.
   const Seen seen = see(model, eye, asking);
-  struct Largest {
+  struct Largest_part {
     const Part* part;
     double angle;
   };
   std::map<Face_id, Seen_face> faces;
-  std::map<Face_id, Largest> largest;
+  std::map<Face_id, Largest_part> largest;
   for (const Seen::Visible_part& part : seen.parts) {
     if (!part.from_front) continue;
     const double angle = part.solid_angle(eye);
     faces[part.face].pixels += angle / pixel_angle;
-    const auto [place, is_new] = largest.try_emplace(part.face, Largest{&part, angle});
+    const auto [place, is_new] = largest.try_emplace(part.face, Largest_part{&part, angle});
     if (!is_new && angle > place->second.angle) place->second = {&part, angle};
   }
 
