@@ -189,11 +189,17 @@ void add_compare(Command program) {
       "face: another than those that are met first. Embree has corners and rays in floats, and no faces edge-on.\n"
       "Example: sightline compare town.off trace --random 10000\n"
       "pvs. Pairs of a cell and a face that a method hides wrongly, or has too many; the file's table: of a compiled "
-      "level, for the leaves that a cell lies in; each pair that it hides is shown by an exact sightline.\n"
+      "level, whose cells lie within its leaves; each pair that it hides is shown by an exact sightline.\n"
+      "Sizes, of at most 200 pairs at random: of what is hidden wrongly what is seen of the face from where a "
+      "sightline "
+      "starts, the cell's middle where that sees it; of what is too many the face as it would look from the cell's "
+      "middle. In pixels of 1024 across 90 degrees, as they are in the middle; --json lists the largest that the "
+      "file's table hides, with a command that draws each.\n"
       "Example: sightline compare level.bsp pvs --rays 1000,10000\n"
       "A folder of scenes, in shards, with one row a scene and method: sightline report FOLDER --questions see --shard "
       "0/8 --json part0.json; report --merge puts the parts together.\n"
-      "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was "
+      "--budget is for each kernel or method, and anew for its sizes. Threads: 1 unless given. Exit code 1: one that "
+      "claims to be exact was "
       "not.");
   command.set_action([a, kernels] {
     a->kernels_given = kernels.given();

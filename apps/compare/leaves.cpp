@@ -140,7 +140,7 @@ Json judged(const Quake_level& file, const Rows& exact, const Rows& said, double
       {"errors", {{"wrongly_visible", visible_wrongly}, {"wrongly_hidden", hidden_wrongly}, {"worst_cell", worst}}}};
 }
 
-/// The leaves whose insides a segment goes through, in order, by the file's own planes, exactly.
+/// Adds the leaves below a node.
 void add_leaves(const Space_tree& tree, std::int32_t at, const Exact_point& p, const Exact_point& q,
                 std::vector<std::size_t>& all) {
   if (at < 0) {
@@ -174,16 +174,17 @@ bool is_sightline(const std::vector<std::size_t>& leaves, const std::vector<harn
 
 }  // namespace
 
-Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_level& file, const Polygon_soup& soup) {
+std::vector<std::size_t> leaves_along(const Space_tree& tree, const Exact_point& from, const Exact_point& to) {
+  std::vector<std::size_t> all;
+  add_leaves(tree, tree.root, from, to, all);
+  return all;
+}
+
+Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_level& file, const Space_tree& tree,
+                               const Level_cells& level, const Occluders& occluders) {
   const Common& common = arguments.common;
-  Cell_options cell_options;
-  cell_options.seed = common.seed;
-  cell_options.threads = 1;  // processes are made after it
-  cell_options.tree = space_tree(file, common.scene);
-  const Level_cells level(soup, cell_options);
-  const Occluders occluders(level.scene());
   Pvs_options options;
-  options.threads = 1;
+  options.threads = 1;  // processes are made after it
   options.search.seed = common.seed;
   Leaves_compared compared;
   const Stopwatch watch;
@@ -234,8 +235,7 @@ Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_l
             ends = search.sightline(from, to);
       }
       if (!ends) continue;
-      std::vector<std::size_t> through;
-      add_leaves(cell_options.tree, cell_options.tree.root, (*ends)[0], (*ends)[1], through);
+      const std::vector<std::size_t> through = leaves_along(tree, (*ends)[0], (*ends)[1]);
       const bool checked = is_sightline(through, faces, l + 1, m + 1, *ends);
       const bool open =
           std::all_of(through.begin(), through.end(), [&](std::size_t leaf) { return file.is_open(leaf); });

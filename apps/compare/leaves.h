@@ -3,7 +3,12 @@
 
 #include "compare.h"
 
+#include <sightline/algorithms/levels/cells.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/io/quake_bsp.h>
+
+#include <cstddef>
+#include <vector>
 
 namespace sightline::app {
 
@@ -18,6 +23,11 @@ struct Leaves_compared {
   double seconds = 0;
   Exit exit = Exit::done;
 };
-Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_level& file, const Polygon_soup& soup);
+/// Pre: the level's cells are within the leaves of the file's tree.
+Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_level& file, const Space_tree& tree,
+                               const Level_cells& level, const Occluders& occluders);
+
+/// The leaves whose insides a segment goes through, in order, by the file's own planes, exactly.
+std::vector<std::size_t> leaves_along(const Space_tree& tree, const Exact_point& from, const Exact_point& to);
 
 }  // namespace sightline::app

@@ -1,18 +1,21 @@
 // compare pvs: what the cells of a level see, by flooding, by random rays, through any portals, and by the table that a
 // compiled level came with.
 
-#include "compare.h"
-#include "page.h"
-
+#include "../support/limited_process.h"
 #include "../support/page.h"
+#include "compare.h"
 #include "leaves.h"
+#include "page.h"
+#include "sizes.h"
 
 #include <sightline/algorithms/levels/pvs.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/compare/cell_sights.h>
 #include <sightline/io/file.h>
 #include <sightline/io/quake_bsp.h>
+#include <sightline/own_leaves.h>
 
 #include <iostream>
+#include <numbers>
 #include <random>
 #include <set>
 
@@ -29,10 +32,14 @@ struct Cells_question {
   const Pvs& exact;
   const std::vector<Cell_id>& cells;  // that are asked about
   bool says;                          // the faces that are wrong, too
+  bool samples;                       // pairs to measure, too
+  std::uint64_t seed;
 };
 
 Json judged(const Cells_question& question, const Sets& said, double seconds, const Peak_memory& memory) {
-  std::size_t visible = 0, hidden_wrongly = 0, visible_wrongly = 0, worst = 0;
+  const std::uint64_t bytes = memory.bytes();
+  std::size_t visible = 0, worst = 0;
+  Pairs hidden_wrongly, visible_wrongly;
   Json wrong_faces;  // of the first cell that has some
   for (const Cell_id c : question.cells) {
     const std::vector<Face_id>& truth = question.exact.visible[c];
@@ -40,8 +47,8 @@ Json judged(const Cells_question& question, const Sets& said, double seconds, co
     std::set_difference(truth.begin(), truth.end(), said[c].begin(), said[c].end(), std::back_inserter(missing));
     std::set_difference(said[c].begin(), said[c].end(), truth.begin(), truth.end(), std::back_inserter(more));
     visible += said[c].size();
-    hidden_wrongly += missing.size();
-    visible_wrongly += more.size();
+    for (const Face_id face : missing) hidden_wrongly.push_back({c, face});
+    for (const Face_id face : more) visible_wrongly.push_back({c, face});
     worst = std::max(worst, missing.size());
     if (question.says && wrong_faces.is_null() && missing.size() + more.size() > 0) {
       const Exact_point at = question.level.inside(c);
@@ -52,13 +59,17 @@ Json judged(const Cells_question& question, const Sets& said, double seconds, co
                                            Page::text(at), missing.size(), more.size())}};
     }
   }
-  Json row{
-      {"status", "done"},
-      {"seconds", seconds},
-      {"peak_bytes", memory.bytes()},
-      {"visible", visible},
-      {"pairs", question.exact.counters.pairs},
-      {"errors", {{"wrongly_visible", visible_wrongly}, {"wrongly_hidden", hidden_wrongly}, {"worst_cell", worst}}}};
+  Json row{{"status", "done"},
+           {"seconds", seconds},
+           {"peak_bytes", bytes},
+           {"visible", visible},
+           {"pairs", question.exact.counters.pairs},
+           {"errors",
+            {{"wrongly_visible", visible_wrongly.size()},
+             {"wrongly_hidden", hidden_wrongly.size()},
+             {"worst_cell", worst}}}};
+  if (question.samples)
+    row["sample"] = sample_json(std::move(hidden_wrongly), std::move(visible_wrongly), question.seed);
   if (!wrong_faces.is_null()) row["wrong_faces"] = std::move(wrong_faces);
   return row;
 }
@@ -129,94 +140,105 @@ Sets by_portals(const Cells_question& question) {
 
 // ---- The table of a compiled level
 
-class Engine {
- public:
-  explicit Engine(Quake_level level) : level_(std::move(level)), faces_(level_.leaves.size()) {
-    for (std::size_t l = 1; l < level_.leaves.size(); ++l) {
-      std::set<Face_id> faces(level_.leaves[l].faces.begin(), level_.leaves[l].faces.end());
-      for (const std::size_t other : level_.seen_from(l))
-        faces.insert(level_.leaves[other].faces.begin(), level_.leaves[other].faces.end());
-      faces_[l].assign(faces.begin(), faces.end());
-    }
-  }
-  const Quake_level& file() const { return level_; }
-  /// The leaf of a point, by the file's own planes, exactly.
-  std::size_t leaf_at(const Exact_point& p) const {
-    std::int32_t at = level_.root;
-    while (at >= 0) {
-      const Quake_level::Node& node = level_.nodes[static_cast<std::size_t>(at)];
-      const Quake_level::Plane& plane = level_.planes[node.plane];
-      Rational height = -exact(double{plane.distance});
-      for (std::size_t k = 0; k < 3; ++k) height += exact(double{plane.normal[k]}) * p[k];
-      at = node.children[height < 0 ? 1 : 0];
-    }
-    return static_cast<std::size_t>(-1 - at);
-  }
-  const std::vector<Face_id>& seen_from(std::size_t leaf) const { return faces_[leaf]; }
-  bool knows(std::size_t leaf) const { return level_.is_open(leaf); }
-
- private:
-  Quake_level level_;
-  std::vector<std::vector<Face_id>> faces_;
-};
-
-/// For each cell what the table says of the leaves that some of its points are in; of sky alone it says nothing.
-Sets by_engine(const Cells_question& question, const Engine& engine) {
+/// For each cell what the table says of the leaf that it is in; of solid and sky it says nothing.
+Sets by_engine(const Cells_question& question, const Quake_level& file) {
   Sets sets(question.level.cells().size());
   for (const Cell_id c : question.cells) {
-    std::set<Face_id> seen(question.level.cells()[c].faces.begin(), question.level.cells()[c].faces.end());
-    std::mt19937_64 random(c);
-    const Cell_points points(question.level, c);
-    bool known = false;
-    for (std::size_t k = 0; k < 24; ++k) {
-      const std::size_t leaf = engine.leaf_at(points.any(random));
-      if (!engine.knows(leaf)) continue;
-      seen.insert(engine.seen_from(leaf).begin(), engine.seen_from(leaf).end());
-      known = true;
+    const Level_cell& cell = question.level.cells()[c];
+    if (!file.is_open(cell.leaf)) {
+      sets[c] = question.exact.visible[c];  // nothing to judge
+      continue;
     }
-    if (known) sets[c].assign(seen.begin(), seen.end());
-    else sets[c] = question.exact.visible[c];  // nothing to judge
+    std::set<Face_id> seen(cell.faces.begin(), cell.faces.end());
+    const auto add = [&](std::size_t leaf) {
+      seen.insert(file.leaves[leaf].faces.begin(), file.leaves[leaf].faces.end());
+    };
+    add(cell.leaf);
+    for (const std::size_t other : file.seen_from(cell.leaf)) add(other);
+    sets[c].assign(seen.begin(), seen.end());
   }
   return sets;
 }
 
-/// Sightlines from a leaf to a face that the leaf's row leaves out: exact, and free of all faces.
-Json refutations(const Cells_question& question, const Engine& engine, const Sets& said, std::size_t& count) {
-  constexpr std::size_t most = 20;
-  Json all = Json::array();
-  const Scene& scene = question.level.scene();
+/// How many of the pairs that the table hides an exact sightline shows.
+std::size_t refutations(const Cells_question& question, const Quake_level& file, Cell_sights& sights,
+                        const Cell_sights::Is_over& is_over) {
+  std::size_t count = 0;
+  const Sets said = by_engine(question, file);
   for (const Cell_id c : question.cells) {
     std::vector<Face_id> missing;
     const std::vector<Face_id>& truth = question.exact.visible[c];
     std::set_difference(truth.begin(), truth.end(), said[c].begin(), said[c].end(), std::back_inserter(missing));
-    if (missing.empty()) continue;
-    std::vector<Weak_source> sources;
-    for (const std::vector<Exact_point>& portal : portals_of(question.level, c))
-      sources.push_back(weak_source(question.occluders, portal));
-    Weak_options options;
-    options.threads = 1;
-    options.faces = missing;
-    for (const Weakly_visible::Pair& pair : weakly_visible(question.occluders, sources, options).pairs) {
-      if (pair.answer.status != Weak_status::visible) continue;
-      const Exact_point r = scene.position(pair.answer.sightline[0].exact),
-                        q = scene.position(pair.answer.sightline[1].exact);
-      // From a little before the portal, within the cell.
-      Exact_point p;
-      Rational back(1, 64);
-      do {
-        back /= 16;
-        for (std::size_t k = 0; k < 3; ++k) p[k] = r[k] + back * (r[k] - q[k]);
-      } while (question.level.at(p) != c && back > Rational(1, 1l << 60));
-      const Face_id face = scene.pieces()[pair.piece].face;
-      const std::size_t leaf = engine.leaf_at(p);
-      if (!engine.knows(leaf)) continue;
-      const std::vector<Face_id>& row = engine.seen_from(leaf);
-      if (std::binary_search(row.begin(), row.end(), face)) continue;
-      ++count;
-      if (all.size() < most)
-        all.push_back({{"leaf", leaf}, {"face", face}, {"cell", c}, {"from", point_json(p)}, {"to", point_json(q)}});
-    }
+    if (!missing.empty()) count += sights.sightlines(c, missing, is_over).size();
   }
+  return count;
+}
+
+// ---- Sizes
+
+/// A pair that a method hides, what shows that it is wrong, and what is seen of the face from there.
+struct Sight {
+  Cell_id cell;
+  Cell_sightline line;
+  Seen_face seen;
+};
+
+/// Of a sample of such pairs, as many as there is time for.
+std::vector<Sight> sights_of(const Json& sample, Cell_sights& sights, const Cell_sights::Is_over& is_over) {
+  std::vector<Sight> all;
+  try {
+    for (const Json& pair : sample)
+      for (Cell_sightline& line : sights.sightlines(pair[0], {pair[1].get<Face_id>()}, is_over)) {
+        Seen_face seen = sights.seen(line.from, line.face, is_over);
+        all.push_back({pair[0], std::move(line), std::move(seen)});
+      }
+  } catch (const Out_of_budget&) {
+  }
+  return all;
+}
+
+/// The same of pairs that a method has too many: how large they would look.
+Screen_sizes sizes_alone(const Json& sample, const Cell_sights& sights, const Cell_sights::Is_over& is_over) {
+  Screen_sizes sizes;
+  for (const Json& pair : sample) {
+    if (is_over && is_over()) break;
+    sizes.add(sights.size_alone(pair[0], pair[1]));
+  }
+  return sizes;
+}
+
+/// What draws a face as it is seen, the largest part of it in the middle, a twentieth of the picture wide unless that
+/// took more than 90 degrees.
+std::string drawing_of(const std::string& scene, const Sight& sight) {
+  constexpr double degree = std::numbers::pi / 180;
+  const double field = std::clamp(20 * sight.seen.width / degree, least_field, 90.0);
+  std::string eye, look;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational& from = sight.line.from[k];
+    eye += (k > 0 ? "," : "") + to_string(from);
+    look += fmt::format("{}{}", k > 0 ? "," : "", nearest_double(Rational(sight.seen.middle[k] - from)));
+  }
+  return fmt::format("sightline see {} --eye={} --look={} --field {:.3g} --svg face-{}.svg", shell_word(scene), eye,
+                     look, field, sight.line.face);
+}
+
+/// The largest first.
+Json sightlines_json(const Cells_question& question, const std::string& scene, const Space_tree& tree,
+                     std::vector<Sight> sights) {
+  constexpr std::size_t most = 20;
+  std::stable_sort(sights.begin(), sights.end(),
+                   [](const Sight& a, const Sight& b) { return a.seen.pixels > b.seen.pixels; });
+  sights.resize(std::min(sights.size(), most));
+  Json all = Json::array();
+  for (const Sight& sight : sights)
+    all.push_back({{"leaf", question.level.cells()[sight.cell].leaf},
+                   {"face", sight.line.face},
+                   {"cell", sight.cell},
+                   {"from", point_json(sight.line.from)},
+                   {"to", point_json(sight.line.to)},
+                   {"through", leaves_along(tree, sight.line.from, sight.line.to)},
+                   {"pixels", sight.seen.pixels},
+                   {"draw", drawing_of(scene, sight)}});
   return all;
 }
 
@@ -225,8 +247,7 @@ void print(const Json& rows) {
   std::cout << fmt::format(fmt::runtime(line), "method", "seconds", "peak MB", "visible", "wrongly visible",
                            "wrongly hidden", "worst cell");
   for (const Json& r : rows) {
-    std::string name = r["method"];
-    if (r.contains("rays")) name += fmt::format(", {} a cell", r["rays"].get<std::size_t>());
+    const std::string name = cells_name(r);
     if (r["status"] != "done") {
       std::cout << fmt::format("{:<22} {}\n", name, r["status"].get<std::string>());
       continue;
@@ -248,7 +269,18 @@ std::vector<Cell_id> asked_cells(const Pvs& exact) {
   return cells;
 }
 
+/// A compiled level with a table of what its leaves see.
+std::optional<Quake_level> level_with_table(const std::string& scene) {
+  const std::string bytes = scene.empty() || scene == "-" ? std::string() : read_bytes(scene);
+  if (!looks_like_quake_level(bytes)) return {};
+  Quake_level file = read_quake_level({scene, bytes});
+  if (file.visibility.empty()) return {};
+  return file;
+}
+
 struct Level_trial : Trial {
+  std::optional<Quake_level> file;  // cells are within its leaves
+  Space_tree tree;                  // that of the file
   Level_cells level;
   Occluders occluders;
   Pvs_options options;
@@ -257,30 +289,25 @@ struct Level_trial : Trial {
   double seconds;
   std::vector<Cell_id> cells;
   Cells_question question;
-  std::optional<Engine> engine;
 
-  /// `limited`: the budget is for the truth too, which leaves pairs open then.
+  /// `limited`: the budget is for the truth too, which leaves pairs open then, and nothing is measured.
   Level_trial(const Compare_arguments& arguments, const Polygon_soup& soup, bool limited)
-      : level(soup, cell_options(arguments.common)),
+      : file(level_with_table(arguments.common.scene)),
+        tree(file ? space_tree(*file, arguments.common.scene) : Space_tree()),
+        level(soup, cell_options(arguments.common, tree)),
         occluders(level.scene()),
         options(pvs_options(arguments.common)),
         exact(potentially_visible(level, limited ? within(arguments.common.budget) : options)),
         seconds(watch.seconds()),
         cells(asked_cells(exact)),
-        question{level, occluders, exact, cells, arguments.says} {
+        question{level, occluders, exact, cells, arguments.says, !limited, arguments.common.seed} {
     const Common& common = arguments.common;
-    const std::string bytes = common.scene.empty() || common.scene == "-" ? std::string() : read_bytes(common.scene);
-    if (looks_like_quake_level(bytes)) {
-      Quake_level file = read_quake_level({common.scene, bytes});
-      if (!file.visibility.empty()) engine.emplace(std::move(file));
-    }
     add({{"kernel", "exact"}, {"method", "flooding"}}, [this] { return potentially_visible(level, options).visible; });
     for (const std::size_t rays : arguments.rays)
       add({{"kernel", "double"}, {"method", "rays"}, {"rays", rays}},
           [this, rays, seed = common.seed] { return by_rays(question, rays, seed); });
     add({{"kernel", "exact"}, {"method", "any portals"}}, [this] { return by_portals(question); });
-    if (engine)
-      add({{"kernel", "float"}, {"method", "the file's table"}}, [this] { return by_engine(question, *engine); });
+    if (file) add({{"kernel", "float"}, {"method", "the file's table"}}, [this] { return by_engine(question, *file); });
     right = [](const Json& r) {
       return r["errors"]["wrongly_hidden"] == 0 &&
              (r["method"] == "any portals" || r["errors"]["wrongly_visible"] == 0);
@@ -301,8 +328,9 @@ struct Level_trial : Trial {
     return limited;
   }
   /// On one thread, since processes are made after it.
-  static Cell_options cell_options(const Common& common) {
+  static Cell_options cell_options(const Common& common, const Space_tree& tree) {
     Cell_options options;
+    options.tree = tree;
     options.seed = common.seed;
     options.threads = 1;
     return options;
@@ -325,22 +353,35 @@ std::unique_ptr<Trial> pvs_trial(const Compare_arguments& arguments, const Polyg
 
 Exit compare_cells(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
-  const Level_trial trial(arguments, common.read(), false);
-  const auto& [level, exact, question, engine] = std::tie(trial.level, trial.exact, trial.question, trial.engine);
+  const Polygon_soup soup = common.read();
+  const Level_trial trial(arguments, soup, false);
+  const auto& [level, exact, question, file] = std::tie(trial.level, trial.exact, trial.question, trial.file);
+
+  // 1. What methods say, each in a process of its own.
   Json rows = Json::array();
   Exit exit = ask(trial, common.budget, rows);
   std::optional<Leaves_compared> leaves;
-  if (engine) leaves = compare_leaves(arguments, engine->file(), common.read());
+  if (file) leaves = compare_leaves(arguments, *file, trial.tree, level, trial.occluders);
   if (exit == Exit::done && leaves) exit = leaves->exit;
   if (exit == Exit::done && exact.counters.undecided + (leaves ? leaves->undecided : 0) > 0) exit = Exit::undecided;
 
+  // 2. What shows that the table is wrong, and how large that looks which methods have wrong.
+  const Model model(soup);
+  Cell_sights sights(level, trial.occluders, model);
   std::size_t refuted = 0;
   Json sightlines = Json::array();
-  if (engine) {
-    sightlines = refutations(question, *engine, by_engine(question, *engine), refuted);
-    if (Json& r = rows.back(); r["status"] == "done") {  // of a table what is proved counts
-      r["errors"]["wrongly_hidden"] = refuted;
-      r["errors"].erase("worst_cell");
+  for (Json& r : rows) {
+    if (r["status"] != "done") continue;
+    const Cell_sights::Is_over is_over = Time_limit(common.budget).end();
+    const std::vector<Sight> hidden = sights_of(r["sample"]["wrongly_hidden"], sights, is_over);
+    Screen_sizes of_hidden;
+    for (const Sight& sight : hidden) of_hidden.add(sight.seen.pixels);
+    const Screen_sizes of_visible = sizes_alone(r["sample"]["wrongly_visible"], sights, is_over);
+    r["sizes"] = {{"wrongly_hidden", sizes_json(of_hidden)}, {"wrongly_visible", sizes_json(of_visible)}};
+    r.erase("sample");
+    if (r["method"] == "the file's table") {
+      sightlines = sightlines_json(question, common.scene, trial.tree, hidden);
+      refuted = refutations(question, *file, sights, is_over);
     }
   }
   if (!arguments.html.empty()) write_comparison(arguments, level.scene(), rows);
@@ -368,6 +409,7 @@ Exit compare_cells(const Compare_arguments& arguments) {
   row("exact", fmt::format("{} cells, {} pairs of a cell and a face: {} visible, {} undecided", trial.cells.size(),
                            exact.counters.pairs, exact.counters.visible, exact.counters.undecided));
   print(rows);
+  print_sizes(rows);
   if (leaves) {
     row("leaves", fmt::format("{} pairs of leaves, each other way round too: {} visible, {} undecided", leaves->pairs,
                               leaves->visible, leaves->undecided));
@@ -377,9 +419,9 @@ Exit compare_cells(const Compare_arguments& arguments) {
                     "solid and has no face; --json lists all",
                     leaves->refuted, leaves->through_solid));
   }
-  if (engine)
-    row("the table", fmt::format("hides {} pairs of a cell and a face from a leaf that has an exact sightline; --json "
-                                 "lists the first",
+  if (file)
+    row("the table", fmt::format("hides {} pairs of a cell and a face that have an exact sightline; --json lists the "
+                                 "largest, and how to draw them",
                                  refuted));
   return exit;
 }

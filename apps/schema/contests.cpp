@@ -106,10 +106,26 @@ Json trace_answer() {
 Json pvs_answer() {
   const Json count = a_count(), point = named("point");
   const Json errors = object({{"wrongly_visible", count}, {"wrongly_hidden", count}, {"worst_cell?", count}});
-  const Json rows = rows_of({{"rays?", count}}, {{"visible", count}, {"pairs?", count}, {"errors", errors}});
+  const Json sizes = object({{"measured", count},
+                             {"below_1", count},
+                             {"below_10", count},
+                             {"below_100", count},
+                             {"below_1000", count},
+                             {"above", count},
+                             {"largest", type("number")}});
+  const Json rows =
+      rows_of({{"rays?", count}}, {{"visible", count},
+                                   {"pairs?", count},
+                                   {"errors", errors},
+                                   {"sizes?", object({{"wrongly_hidden", sizes}, {"wrongly_visible", sizes}})}});
   const Members sums{{"pairs", count}, {"visible", count}, {"undecided", count}, {"refuted", count}, {"rows", rows}};
   const Members line{{"from", point}, {"to", point}};
-  const Json of_face = object(with(line, {{"leaf", count}, {"face", a_face()}, {"cell", count}}));
+  const Json of_face = object(with(line, {{"leaf", count},
+                                          {"face", a_face()},
+                                          {"cell", count},
+                                          {"through", list_of(count)},
+                                          {"pixels", type("number")},
+                                          {"draw", type("string")}}));
   const Json of_leaves = object(with(
       line, {{"from_leaf", count}, {"to_leaf", count}, {"through", list_of(count)}, {"checked", type("boolean")}}));
   const Json leaves =

@@ -136,7 +136,7 @@ void View_arguments::add_to(Command command, const std::string& usual) {
       .add_option("--field", field,
                   "width of the picture's view in degrees; by default so wide that what there is to see fills the "
                   "picture, 90 where it is all around the eye")
-      .check(range(1.0, 170.0) & finite_number());
+      .check(range(least_field, most_field) & finite_number());
   add_shade_option(command, shade);
   canvas.add_to(command, usual);
 }

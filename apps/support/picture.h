@@ -57,6 +57,9 @@ struct View {
 /// Adds --shade to a command that draws.
 Option add_shade_option(Command command, std::string& shade);
 
+/// Of a picture's width, in degrees.
+inline constexpr double least_field = 1e-6, most_field = 170;
+
 /// The options of a picture's view.
 struct View_arguments {
   std::string look, up, shade = "lambert";

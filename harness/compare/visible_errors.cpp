@@ -139,7 +139,7 @@ Ray_direction direction(const Exact_view& view, const Exact_view::Ray& r) {
 }
 
 void Image::add(std::uint32_t piece, Image_polygon polygon) {
-  Part part{piece, std::move(polygon), {1, 1}, {-1, -1}};
+  Image_part part{piece, std::move(polygon), {1, 1}, {-1, -1}};
   for (const Image_point& p : part.polygon)
     for (std::size_t k = 0; k < 2; ++k) {
       part.low[k] = std::min(part.low[k], p[k]);
@@ -157,14 +157,14 @@ void Image::make_grid() {
   round_ = 0;
 }
 
-std::vector<std::uint32_t> Image::near(const Part& other) {
+std::vector<std::uint32_t> Image::near(const Image_part& other) {
   std::vector<std::uint32_t> found;
   ++round_;
   each_cell(other, [&](const std::vector<std::uint32_t>& cell) {
     for (const std::uint32_t i : cell) {
       if (met_[i] == round_) continue;
       met_[i] = round_;
-      const Part& part = parts_[i];
+      const Image_part& part = parts_[i];
       if (part.low[0] <= other.high[0] && other.low[0] <= part.high[0] && part.low[1] <= other.high[1] &&
           other.low[1] <= part.high[1])
         found.push_back(i);
@@ -174,7 +174,7 @@ std::vector<std::uint32_t> Image::near(const Part& other) {
 }
 
 template <class Function>
-void Image::each_cell(const Part& part, Function function) {
+void Image::each_cell(const Image_part& part, Function function) {
   const auto cell = [&](double v) {
     return std::min(cells_ - 1, static_cast<std::size_t>((v + 1) / 2 * static_cast<double>(cells_)));
   };
@@ -195,7 +195,7 @@ Visible_errors Visible_reference::errors(const Depth_buffer& buffer) {
   };
   double wrong = 0;
   for (std::size_t side = 0; side < 6; ++side)
-    for (const Part& part : images_.sides[side].parts())
+    for (const Image_part& part : images_.sides[side].parts())
       for (std::uint32_t y = pixel(part.low[1]); y <= pixel(part.high[1]); ++y) {
         const double below = line(y), above = line(y + 1);
         const Image_polygon row =

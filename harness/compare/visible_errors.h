@@ -86,7 +86,7 @@ Ray_direction direction(const Number_view<FT>&, const typename Number_view<FT>::
 
 // ---- A surface in six images
 
-struct Part {
+struct Image_part {
   std::uint32_t piece;  // or nothing
   Image_polygon polygon;
   Image_point low, high;  // its box
@@ -96,18 +96,18 @@ struct Part {
 class Image {
  public:
   void add(std::uint32_t piece, Image_polygon polygon);
-  std::span<const Part> parts() const { return parts_; }
+  std::span<const Image_part> parts() const { return parts_; }
 
   /// Sorts the parts into a grid of about as many cells.
   void make_grid();
   /// The parts whose boxes meet that of another one. Pre: make_grid().
-  std::vector<std::uint32_t> near(const Part& other);
+  std::vector<std::uint32_t> near(const Image_part& other);
 
  private:
   template <class Function>
-  void each_cell(const Part& part, Function function);
+  void each_cell(const Image_part& part, Function function);
 
-  std::vector<Part> parts_;
+  std::vector<Image_part> parts_;
   std::size_t cells_ = 1;
   std::vector<std::vector<std::uint32_t>> grid_;
   std::vector<std::uint32_t> met_;
@@ -179,10 +179,10 @@ class Visible_reference {
     for (std::size_t side = 0; side < 6; ++side) {
       Image& image = answer.sides[side];
       image.make_grid();
-      for (const Part& part : images_.sides[side].parts()) {
+      for (const Image_part& part : images_.sides[side].parts()) {
         std::vector<std::pair<double, std::uint32_t>> shown;  // the largest first, so that little is left to cut
         for (const std::uint32_t i : image.near(part)) {
-          const Part& other = image.parts()[i];
+          const Image_part& other = image.parts()[i];
           const Image_polygon both = intersection(part.polygon, other.polygon);
           if (both.empty()) continue;
           wrong += wrong_area(side, part.piece, other.piece, both, e);

@@ -318,6 +318,18 @@ TEST_F(Budget, that_runs_out_in_pvs_leaves_the_rest_undecided_at_once) {
   }
 }
 
+TEST_F(Budget, that_runs_out_while_sizes_are_measured_leaves_the_rest_unmeasured) {
+  const std::string house = path("house.off").string();
+  ASSERT_EQ(run({"generate", "rooms", "--size", "2", "--out", house}).code, done);
+  const Outcome r = run({"compare", house, "pvs", "--rays", "10", "--budget", "0.3", "--json", "-"}, {.seconds = 60});
+  const Json rows = r.json()["result"]["rows"];
+  ASSERT_EQ(rows[1]["method"], "rays");
+  ASSERT_EQ(rows[1]["status"], "done") << rows[1];
+  EXPECT_GT(rows[1]["errors"]["wrongly_hidden"], 200);
+  EXPECT_LT(rows[1]["sizes"]["wrongly_hidden"]["measured"], 200) << "looking from so many points takes longer";
+  EXPECT_FALSE(rows[1].contains("sample"));
+}
+
 TEST_F(Budget, that_runs_out_before_there_are_cells_is_exit_4) {
   const std::string city = path("city.off").string();  // its cells take a second and more
   ASSERT_EQ(run({"generate", "city", "--size", "2000", "--out", city}).code, done);

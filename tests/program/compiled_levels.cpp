@@ -1,17 +1,22 @@
 // Compiled levels: their own table of what leaves see against the exact one, and a copy that has that.
 
+#include "flaw.h"
 #include "program.h"
 
 #include <sightline/io/binary.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <sstream>
 
 namespace program {
 
 using Corner = std::array<float, 3>;
 
-/// Four rooms in a row along x, with a door in each wall between two: the first cannot see the last.
+/// Four rooms in a row along x, with a door in each wall between two: the first cannot see the last. Each leaf lists
+/// the faces of its room; those of the box around all are in each list.
 class Compiled_levels : public Program {
  protected:
   Compiled_levels() {
@@ -57,7 +62,13 @@ class Compiled_levels : public Program {
     for (std::int32_t leaf = 0; leaf < 5; ++leaf) {
       store(lumps[10], std::int32_t{leaf == 0 ? -2 : -1});
       store(lumps[10], leaf - 1);
-      lumps[10].append(20, '\0');
+      lumps[10].append(12, '\0');
+      store(lumps[10], static_cast<std::uint16_t>(lumps[11].size() / 2));
+      const auto first = lumps[11].size() / 2;
+      for (std::size_t face = 0; face < faces_.size(); ++face)
+        if (leaf > 0 && (rooms_[face] == 0 || rooms_[face] == leaf)) store(lumps[11], static_cast<std::uint16_t>(face));
+      store(lumps[10], static_cast<std::uint16_t>(lumps[11].size() / 2 - first));
+      lumps[10].append(4, '\0');
       if (leaf > 0) store(lumps[4], table[static_cast<std::size_t>(leaf - 1)]);
     }
     lumps[14].append(36, '\0');
@@ -72,24 +83,40 @@ class Compiled_levels : public Program {
     }
     return file(name, bytes + body);
   }
-  Json compared(const std::string& name) {
+  Json compared_faces(const std::string& name) {
     const Outcome r = run({"compare", name, "pvs", "--rays", "1000", "--json", "-"});
     EXPECT_EQ(r.code, done) << r;
-    return r.json()["result"]["leaves"];
+    const Json schema = run({"schema", "compare"}).json(), written = r.json();
+    EXPECT_EQ(flaw(written, schema, schema, "compare"), "");
+    return written["result"];
+  }
+  Json compared(const std::string& name) { return compared_faces(name)["leaves"]; }
+  static Json row_of(const Json& rows, const std::string& method) {
+    for (const Json& row : rows)
+      if (row["method"] == method) return row;
+    ADD_FAILURE() << method;
+    return {};
   }
 
   static void expect_wrong(const Json& leaves, const std::string& method, int hidden, int visible) {
-    for (const Json& row : leaves["rows"]) {
-      if (row["method"] != method) continue;
-      EXPECT_EQ(row["errors"]["wrongly_hidden"], hidden);
-      EXPECT_EQ(row["errors"]["wrongly_visible"], visible);
-      return;
-    }
-    ADD_FAILURE() << method;
+    const Json row = row_of(leaves["rows"], method);
+    EXPECT_EQ(row["errors"]["wrongly_hidden"], hidden);
+    EXPECT_EQ(row["errors"]["wrongly_visible"], visible);
   }
 
+  /// A square of a 256th, front to smaller x, and its back, before the wall at the end of room 3.
+  void add_tiny() {
+    const float x = 11, y = -1, z = -1, s = 1 / 256.f;
+    add_quad({x, y, z}, {x, y, z + s}, {x, y + s, z + s}, {x, y + s, z}, 3);
+    add_quad({x, y, z}, {x, y + s, z}, {x, y + s, z + s}, {x, y, z + s}, 3);
+  }
+  const std::vector<Corner>& face(std::size_t id) const { return faces_[id]; }
+
  private:
-  void add_quad(const Corner& a, const Corner& b, const Corner& c, const Corner& d) { faces_.push_back({a, b, c, d}); }
+  void add_quad(const Corner& a, const Corner& b, const Corner& c, const Corner& d, int room = 0) {
+    faces_.push_back({a, b, c, d});
+    rooms_.push_back(room);
+  }
   /// Seen from inside.
   void add_box(const Corner& l, const Corner& h) {
     add_quad({l[0], l[1], l[2]}, {l[0], h[1], l[2]}, {l[0], h[1], h[2]}, {l[0], l[1], h[2]});
@@ -101,16 +128,44 @@ class Compiled_levels : public Program {
   }
   /// Both sides of a wall across the row, but for a door of one unit about y = z = middle.
   void add_wall(float x, float middle) {
+    const int behind = static_cast<int>(x + 4) / 8 + 1;  // rooms are eight units long
     const float l = middle - 0.5f, h = middle + 0.5f;
     for (const auto& [y0, z0, y1, z1] :
          {std::array<float, 4>{-4, -4, 4, l}, {-4, h, 4, 4}, {-4, l, l, h}, {h, l, 4, h}}) {
-      add_quad({x, y0, z0}, {x, y1, z0}, {x, y1, z1}, {x, y0, z1});
-      add_quad({x, y0, z0}, {x, y0, z1}, {x, y1, z1}, {x, y1, z0});
+      add_quad({x, y0, z0}, {x, y1, z0}, {x, y1, z1}, {x, y0, z1}, behind + 1);
+      add_quad({x, y0, z0}, {x, y0, z1}, {x, y1, z1}, {x, y1, z0}, behind);
     }
   }
 
   std::vector<std::vector<Corner>> faces_;
+  std::vector<int> rooms_;  // by face; 0: it is in all of them
 };
+
+double number_of(const Json& text) {
+  const std::string s = text;
+  const std::size_t slash = s.find('/');
+  return std::stod(s) / (slash == std::string::npos ? 1 : std::stod(s.substr(slash + 1)));
+}
+/// Of the part of a rectangle across the x axis that an eye sees through a hole in another plane across it, in pixels:
+/// by the integral of the solid angle, from the four corners of what is common to the two.
+double seen_through(const std::array<double, 3>& eye, const std::vector<Corner>& face,
+                    const std::array<double, 2>& y_hole, const std::array<double, 2>& z_hole, double x_hole) {
+  const double depth = std::abs(face[0][0] - eye[0]), scale = depth / std::abs(x_hole - eye[0]);
+  std::array<std::array<double, 2>, 2> sides;  // of y and z, about the eye
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto [least, most] = std::minmax_element(
+        face.begin(), face.end(), [&](const Corner& a, const Corner& b) { return a[k + 1] < b[k + 1]; });
+    const std::array<double, 2>& hole = k == 0 ? y_hole : z_hole;
+    sides[k] = {std::max((*least)[k + 1] - eye[k + 1], scale * (hole[0] - eye[k + 1])),
+                std::min((*most)[k + 1] - eye[k + 1], scale * (hole[1] - eye[k + 1]))};
+    if (sides[k][0] >= sides[k][1]) return 0;
+  }
+  const auto corner = [&](double y, double z) {
+    return std::atan2(y * z, depth * std::sqrt(depth * depth + y * y + z * z));
+  };
+  const auto& [y, z] = sides;
+  return 512 * 512 * (corner(y[1], z[1]) - corner(y[0], z[1]) - corner(y[1], z[0]) + corner(y[0], z[0]));
+}
 
 TEST_F(Compiled_levels, own_tables_are_refuted_by_sightlines_leaf_by_leaf) {
   // Leaves 2 and 3, which have a door between them, do not see each other by it, and 1 and 4 do.
@@ -125,6 +180,80 @@ TEST_F(Compiled_levels, own_tables_are_refuted_by_sightlines_leaf_by_leaf) {
   ASSERT_EQ(leaves["sightlines"].size(), 2u);
   EXPECT_EQ(leaves["sightlines"][0]["through"], Json({2, 3}));
   EXPECT_EQ(leaves["sightlines"][1]["through"], Json({3, 2}));
+}
+
+TEST_F(Compiled_levels, faces_that_tables_hide_are_as_large_as_a_door_leaves_them) {
+  // Rooms 2 and 3, with a door at x = 4: what is hidden are walls at the far ends, and in room 3 a square of a 256th.
+  add_tiny();
+  const Json said = compared_faces(level("wrong.bsp", {0x0f, 0x0b, 0x0d, 0x0f}));
+  const Json table = row_of(said["rows"], "the file's table");
+  const std::size_t hidden = table["errors"]["wrongly_hidden"];
+  EXPECT_EQ(said["refuted"], hidden);
+  EXPECT_EQ(table["visible"].get<std::size_t>() + hidden - table["errors"]["wrongly_visible"].get<std::size_t>(),
+            said["visible"]);
+  ASSERT_GT(hidden, 4u);
+  ASSERT_LE(hidden, 20u) << "all are listed";
+  ASSERT_EQ(said["sightlines"].size(), hidden);
+  std::array<std::size_t, 5> counts{};
+  double last = 1e9, largest = 0;
+  for (const Json& line : said["sightlines"]) {
+    EXPECT_EQ(line["through"], line["leaf"] == 2 ? Json({2, 3}) : Json({3, 2})) << line;
+    std::array<double, 3> eye{};
+    for (std::size_t k = 0; k < 3; ++k) eye[k] = number_of(line["from"][k]);
+    const double pixels = line["pixels"], expected = seen_through(eye, face(line["face"]), {2.5, 3.5}, {2.5, 3.5}, 4);
+    EXPECT_GT(pixels, 0) << line;
+    EXPECT_NEAR(pixels / expected, 1, 1e-3) << line << ": the square hides a little of a wall, at most";
+    EXPECT_LE(pixels, last) << "the largest first";
+    last = pixels;
+    largest = std::max(largest, pixels);
+    ++counts[pixels < 1 ? 0 : pixels < 10 ? 1 : pixels < 100 ? 2 : pixels < 1000 ? 3 : 4];
+  }
+  EXPECT_GT(counts[0], 0u) << "the square";
+  EXPECT_GT(counts[3] + counts[4], 0u) << "walls";
+  const Json& sizes = table["sizes"]["wrongly_hidden"];
+  EXPECT_EQ(sizes["measured"], hidden);
+  EXPECT_EQ(sizes["largest"], largest);
+  std::size_t k = 0;
+  for (const char* key : {"below_1", "below_10", "below_100", "below_1000", "above"})
+    EXPECT_EQ(sizes[key], counts[k++]) << key;
+  // What is too many: rooms 1 and 4, which see no walls of each other.
+  EXPECT_EQ(table["sizes"]["wrongly_visible"]["measured"], table["errors"]["wrongly_visible"]);
+  EXPECT_GT(table["sizes"]["wrongly_visible"]["largest"], 100);
+  EXPECT_EQ(row_of(said["rows"], "flooding")["sizes"]["wrongly_hidden"]["measured"], 0);
+  // A leaf sees itself, whether or not its row says so.
+  const Json same = compared_faces(level("itself.bsp", {0x0f, 0x0b, 0x09, 0x0f}));
+  EXPECT_EQ(row_of(same["rows"], "the file's table")["errors"], table["errors"]);
+}
+
+TEST_F(Compiled_levels, a_row_says_how_to_draw_what_it_shows) {
+  add_tiny();
+  const Json said = compared_faces(level("wrong.bsp", {0x0f, 0x0b, 0x0d, 0x0f}));
+  for (const Json& line : said["sightlines"]) {
+    std::istringstream command(line["draw"].get<std::string>());
+    std::vector<std::string> words;
+    for (std::string word; command >> word;) words.push_back(word);
+    ASSERT_EQ(words[0], "sightline");
+    words.erase(words.begin());
+    const std::string name = "face-" + std::to_string(line["face"].get<int>());
+    EXPECT_EQ(words.back(), name + ".svg");
+    words.back() = path(words.back()).string();
+    words.insert(words.end(), {"--certificate", path("seen.json").string()});
+    ASSERT_EQ(run(words).code, done) << line;
+    // It shows the face, a small one about a twentieth of 960 wide, and the certificate is right.
+    const std::string drawn = read_file(path(name + ".svg")), before = "id=\"" + name + "-1\" points=\"";
+    const std::size_t at = drawn.find(before);
+    ASSERT_NE(at, std::string::npos) << line;
+    if (line["pixels"] < 1) {
+      std::istringstream corners(drawn.substr(at + before.size()));
+      double least = 960, most = 0, x = 0, y = 0;
+      for (char comma = 0; corners >> x >> comma >> y; most = std::max(most, x)) least = std::min(least, x);
+      EXPECT_GT(most - least, 20) << drawn;
+      EXPECT_LT(most - least, 150) << drawn;
+      EXPECT_NEAR((least + most) / 2, 480, 1);
+    }
+    const Outcome checked = run({"verify", path("wrong.bsp").string(), path("seen.json").string()});
+    EXPECT_EQ(checked.code, done) << checked;
+  }
 }
 
 TEST_F(Compiled_levels, a_copy_has_the_exact_table) {
@@ -143,7 +272,9 @@ TEST_F(Compiled_levels, a_copy_has_the_exact_table) {
   std::string bytes = read_file(wrong);
   const std::size_t leaf_lump = sightline::load<std::uint32_t>(bytes, 4 + 8 * 10, std::endian::little);
   bytes[leaf_lump + 2 * 28] = '\xfe';  // leaf 2: contents -2
-  const Json leaves = compared(file("solid.bsp", bytes));
+  const Json solid = compared_faces(file("solid.bsp", bytes)), &leaves = solid["leaves"];
+  ASSERT_FALSE(solid["sightlines"].empty());
+  for (const Json& line : solid["sightlines"]) EXPECT_EQ(line["leaf"], 3) << "of what is solid a table says nothing";
   EXPECT_EQ(leaves["pairs"], 6);
   EXPECT_EQ(leaves["refuted"], 0);
 }
