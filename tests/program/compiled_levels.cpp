@@ -225,6 +225,18 @@ TEST_F(Compiled_levels, faces_that_tables_hide_are_as_large_as_a_door_leaves_the
   EXPECT_EQ(row_of(same["rows"], "the file's table")["errors"], table["errors"]);
 }
 
+TEST_F(Compiled_levels, budgets_that_run_out_anywhere_leave_an_answer) {
+  add_tiny();
+  const std::string wrong = level("wrong.bsp", {0x0f, 0x0b, 0x0d, 0x0f});
+  for (const char* budget : {"0.001", "0.003", "0.01", "0.03", "0.1"}) {
+    const Outcome r = run({"compare", wrong, "pvs", "--rays", "10", "--budget", budget, "--json", "-"});
+    EXPECT_TRUE(r.code == done || r.code == undecided) << r;
+    const Json said = r.json();
+    ASSERT_FALSE(said.is_discarded()) << r;
+    EXPECT_LE(said["result"]["sightlines"].size(), 20u);
+  }
+}
+
 TEST_F(Compiled_levels, a_row_says_how_to_draw_what_it_shows) {
   add_tiny();
   const Json said = compared_faces(level("wrong.bsp", {0x0f, 0x0b, 0x0d, 0x0f}));
