@@ -170,7 +170,7 @@ void expect_points_told(const Polygon_soup& before, const Rounded_surface& after
 
 TEST(Snapping, leaves_a_solid_wherever_rounding_does_not) {
   int broken = 0, asked = 0;
-  std::size_t vanished = 0, added = 0, most_rounds = 0;
+  std::size_t vanished = 0, added = 0, most_rounds = 0, turned = 0;
   generate::Random random(7);
   for (int seed = 0; seed < test_scenes::sample(20); ++seed)
     for (const long far : {100000L, 1L << 20, 10000000L}) {
@@ -190,21 +190,28 @@ TEST(Snapping, leaves_a_solid_wherever_rounding_does_not) {
       EXPECT_GT(snap.rounds, 0u) << name;
       EXPECT_EQ(snap.face_of.size(), snap.soup.face_count()) << name;
       EXPECT_EQ(snap.moved, near.moved) << name;
+      if (far < 10000000) EXPECT_LT(4 * snap.vanished.size(), exact.point_count()) << name << ": most points stay";
       EXPECT_GE(snap.farthest, near.farthest) << name;
+      const double step = std::ldexp(1.0, std::ilogb(static_cast<double>(far) + 4) - 23);
+      if (snap.rounds <= 3)
+        EXPECT_LE(snap.farthest, near.farthest + (static_cast<double>(snap.rounds) - 1) * step / 2 + step / 1024)
+            << name;
       EXPECT_LT(snap.farthest, 10 * static_cast<double>(far) * 0x1p-23) << name;
       expect_points_told(exact, snap, name);
       if (seed < 6) asked += expect_same_inside(exact, snap, 40, random, name);
       vanished += snap.vanished.size();
       added += snap.added.size();
       most_rounds = std::max(most_rounds, snap.rounds);
+      turned += snap.turned.size();
       // Faces lie along those that they are said to be parts of.
       for (Face_id f = 0; f < snap.soup.face_count(); ++f)
         for (const Point_id p : snap.soup.loop(f)) {
-          const Polygon_soup face = face_alone(exact, snap.face_of[f]);
+          const Polygon_soup face = face_alone(exact, snap.face_of.at(f));
           EXPECT_FALSE(is_off(face, snap.soup.point(p), sightline::exact(snap.farthest))) << name << ", face " << f;
         }
     }
   RecordProperty("broken", broken);
+  EXPECT_GT(turned, test_scenes::least(20u));
   EXPECT_GT(broken, test_scenes::least(25));
   EXPECT_GT(asked, test_scenes::least(100));
   EXPECT_GT(vanished, 0u);
@@ -300,8 +307,26 @@ TEST(Snapping, what_stood_upon_a_face_may_not_go_through_it) {
     for (const Rounded_surface* surface : {&near, &snap})
       if (surface->is_sound()) expect_solid(surface->soup, name);
     through += !near.crossing.empty();
+    EXPECT_TRUE(near.misplaced.empty()) << name << ": then it is told";
   }
   EXPECT_GT(through, test_scenes::least(2));
+}
+
+TEST(Snapping, what_stands_upon_a_face_may_go_on_to) {
+  // A box that is rounded, and beside it a tetrahedron on an edge right across the top of a box that stays as it is.
+  const Rational third(1, 3);
+  Polygon_soup all = box({8, 8, third}, {9, 9, 1});
+  add_box(all, {-2, -2, 0}, {2, 2, 1});
+  std::vector<Point_id> p;
+  for (const Exact_point& at :
+       {Exact_point{-3, -1, 1}, Exact_point{3, 1, 1}, Exact_point{-1, 1, 2}, Exact_point{1, -1, 2}})
+    p.push_back(all.add_point(at[0], at[1], at[2]));
+  for (const std::vector<Point_id>& loop : std::vector<std::vector<Point_id>>{
+           {p[0], p[2], p[1]}, {p[0], p[1], p[3]}, {p[0], p[3], p[2]}, {p[1], p[2], p[3]}})
+    all.add_face(loop);
+  const Rounded_surface near = rounded(all, Rounding::to_float);
+  EXPECT_EQ(near.moved, 4u);
+  EXPECT_TRUE(near.is_sound());
 }
 
 TEST(Snapping, a_thin_solid_that_is_turned_inside_out_is_told_though_no_normal_turns) {
