@@ -335,7 +335,7 @@ Json result_json(const Boolean_arguments& a, const Set_result& result, const Wri
             {"area", area(result.soup)},
             {"not_manifold", std::move(not_manifold)}};
   add_provenance(json, a, result, written);
-  if (written.rounding) json["rounding"] = rounding_json(*written.rounding);
+  if (written.rounding) json["rounding"] = rounding_json(*written.rounding, written.flat.soup);
   return json;
 }
 
@@ -463,9 +463,10 @@ void add_boolean(Command program) {
   command.add_option("--round", a->round, "what coordinates of a format that cannot hold them are rounded to")
       .check(one_of({"double", "float"}))
       .show_default();
-  command.add_flag("--snap", a->snap,
-                   "where rounding turns faces over, or makes them cross, move their corners until it does not; where "
-                   "40 rounds do not help, the exit code is 1");
+  command.add_flag(
+      "--snap", a->snap,
+      "where rounding breaks the surface, round what it winds round again until it is a solid; thin parts vanish. "
+      "Where 40 rounds do not help, the exit code is 1");
   command.add_option("--threads", a->threads, "threads; 0: one for each processor. The output does not depend on it")
       .check(range(0, 1024))
       .show_default();

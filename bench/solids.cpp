@@ -243,13 +243,17 @@ std::array<double, 2> nef_polyhedra(const std::vector<Polygon_soup>& solids) {
 }
 
 /// Seconds of CGAL's corefinement with Epeck, meshes made before; the best of five.
-double corefinement(const std::vector<Polygon_soup>& solids) {
+double corefinement(const std::vector<Polygon_soup>& solids, Set_operation operation) {
+  namespace processing = CGAL::Polygon_mesh_processing;
   double best = 0;
   for (int turn = 0; turn < 5; ++turn) {
     std::array<Cgal_mesh, 2> meshes = cgal_meshes(solids);
     Cgal_mesh result;
     const double begin = processor_seconds();
-    CGAL::Polygon_mesh_processing::corefine_and_compute_union(meshes[0], meshes[1], result);
+    if (operation == Set_operation::unite) processing::corefine_and_compute_union(meshes[0], meshes[1], result);
+    else if (operation == Set_operation::intersect)
+      processing::corefine_and_compute_intersection(meshes[0], meshes[1], result);
+    else processing::corefine_and_compute_difference(meshes[0], meshes[1], result);
     const double seconds = processor_seconds() - begin;
     if (turn == 0 || seconds < best) best = seconds;
   }
@@ -311,9 +315,12 @@ int main(int argc, char** argv) {
     const std::vector<Polygon_soup> solids{sphere(side, side + 1, 0), sphere(side, side + 1, 0.7)};
     print_row(name, solids, Set_operation::unite, most_certified);
     if (side != 64) continue;
-    double corefined = 0;
-    bench::in_child<double>(corefined, [&] { return corefinement(solids); });
-    fmt::print("{:<26} {:>28.4f}\n", "  CGAL corefinement, Epeck", corefined);
+    const auto print_corefinement = [&](Set_operation operation) {
+      double corefined = 0;
+      bench::in_child<double>(corefined, [&] { return corefinement(solids, operation); });
+      fmt::print("{:<26} {:>28.4f}\n", "  CGAL corefinement, Epeck", corefined);
+    };
+    print_corefinement(Set_operation::unite);
 #ifdef SIGHTLINE_MANIFOLD
     std::array<double, 2> rounded{};
     bench::in_child<std::array<double, 2>>(rounded, [&] { return by_manifold(solids); });
@@ -322,6 +329,10 @@ int main(int argc, char** argv) {
     std::array<double, 2> nef{};
     bench::in_child<std::array<double, 2>>(nef, [&] { return nef_polyhedra(solids); });
     fmt::print("{:<26} {:>18.4f} {:>9.4f}\n", "  CGAL Nef, Epeck", nef[0], nef[1]);
+    for (const Set_operation operation : {Set_operation::intersect, Set_operation::subtract}) {
+      print_row(fmt::format("  their {}", sightline::name(operation)), solids, operation, most_certified);
+      print_corefinement(operation);
+    }
   }
   const auto print_if_asked_for = [&](const std::string& name, auto solids, Set_operation operation) {
     if (is_asked_for(name)) print_row(name, solids(), operation, most_certified);

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -99,26 +100,36 @@ Place nearest_place(const Exact_point& p, Rounding to) {
   return near;
 }
 
-/// A point of a grid near p, of which the step is 2^level times that of the numbers at p's greatest coordinate: the
-/// nearest one, or, with a seed, one of those around p.
-Place snapped_place(const Exact_point& p, Rounding to, int level, std::uint64_t seed) {
+/// A point of a grid near p, of which the step is that of the numbers at p's greatest coordinate: the nearest one, or,
+/// with a seed, one of those around p. Degenerate: a point of the grid stays.
+Place place_on_grid(const Exact_point& p, Rounding to, std::uint64_t seed) {
   double greatest = 0;
   for (const double x : nearest_place(p, to)) greatest = std::max(greatest, std::fabs(x));
   const int digits =
       to == Rounding::to_double ? std::numeric_limits<double>::digits : std::numeric_limits<float>::digits;
   const int least = to == Rounding::to_double ? -1074 : -149;
-  const int exponent = std::max(greatest == 0 ? least : std::ilogb(greatest) - digits + 1 + level, least);
+  const int exponent = std::max(greatest == 0 ? least : std::ilogb(greatest) - digits + 1, least);
   const Rational step = exact(std::ldexp(1.0, exponent));
   Place place;
   for (std::size_t k = 0; k < 3; ++k) {
     const Rational steps = p[k] / step;
-    const Rational whole = (seed >> k & 1) == 0 ? steps + Rational(1, 2) : steps;
+    const bool is_nearest = (seed >> k & 1) == 0, is_above = (seed >> (k + 3) & 1) != 0;
+    const Rational whole = is_nearest ? steps + Rational(1, 2) : steps;
     Integer below;
     mpz_fdiv_q(below.get_mpz_t(), whole.get_num_mpz_t(), whole.get_den_mpz_t());
-    if ((seed >> (k + 3) & 1) != 0 && (seed >> k & 1) != 0 && below != steps) ++below;
+    if (!is_nearest && is_above && below != steps) ++below;
     place[k] = nearest_double(step * below);
   }
   return place;
+}
+
+bool is_at(const Exact_point& p, const Place& place) {
+  return p[0] == exact(place[0]) && p[1] == exact(place[1]) && p[2] == exact(place[2]);
+}
+
+/// A double not below, which is near.
+double double_above(const Rational& value) {
+  return sgn(value) == 0 ? 0 : std::nextafter(nearest_double(value), std::numeric_limits<double>::infinity());
 }
 
 /// The surface with its points at other places, and what is broken there. Loops lose corners that repeat the one
@@ -130,22 +141,12 @@ Rounded_surface surface_at(const Polygon_soup& soup, const std::vector<Place>& p
   // 1. Points.
   std::vector<Point_id> point_of(soup.point_count());
   std::map<Place, Point_id> known;
-  Rational farthest;
   for (Point_id p = 0; p < soup.point_count(); ++p) {
-    const Exact_point at = soup.point(p);
-    bool moved = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Rational step = abs(at[k] - exact(places[p][k]));
-      if (sgn(step) != 0) moved = true;
-      if (farthest < step) farthest = step;
-    }
-    result.moved += moved;
+    result.moved += !is_at(soup.point(p), places[p]);
     const auto [place, fresh] = known.try_emplace(places[p], static_cast<Point_id>(result.soup.point_count()));
     point_of[p] = merge ? place->second : p;
     if (!merge || fresh) result.soup.add_point(places[p][0], places[p][1], places[p][2]);
   }
-  result.farthest = std::nextafter(nearest_double(farthest), std::numeric_limits<double>::infinity());
-  if (sgn(farthest) == 0) result.farthest = 0;
   // 2. Faces.
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     if (progress) progress(f, soup.face_count());
@@ -160,14 +161,11 @@ Rounded_surface surface_at(const Polygon_soup& soup, const std::vector<Place>& p
     if (merge && loop.size() < 3) continue;
     const bool planar = is_planar(result.soup, loop);
     if (!planar) result.not_planar.push_back(f);
-    const Exact_point before = doubled_normal(soup, soup.loop(f));
     const auto add = [&](const std::vector<Point_id>& corners) {
       if (merge && corners.size() < 3) return;
       const Face_id face = result.soup.add_face(corners);
       result.face_of.push_back(f);
-      const Exact_point normal = doubled_normal(result.soup, corners);
-      if (is_zero(normal)) result.collapsed.push_back(face);
-      else if (dot(normal, before) < 0) result.turned.push_back(face);
+      if (is_zero(doubled_normal(result.soup, corners))) result.collapsed.push_back(face);
     };
     if (planar && (!triangulate || loop.size() == 3)) add(loop);
     else
@@ -176,11 +174,61 @@ Rounded_surface surface_at(const Polygon_soup& soup, const std::vector<Place>& p
   return result;
 }
 
+/// No coordinate is moved by more.
+Rational farthest_step(const Polygon_soup& soup, const std::vector<Place>& places) {
+  Rational farthest;
+  for (Point_id p = 0; p < soup.point_count(); ++p) {
+    const Exact_point at = soup.point(p);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Rational step = abs(at[k] - exact(places[p][k]));
+      if (farthest < step) farthest = step;
+    }
+  }
+  return farthest;
+}
+
+/// Faces whose normals point to the other side of the plane of the face before.
+void add_turned(Rounded_surface& surface, const Polygon_soup& before) {
+  for (Face_id f = 0; f < surface.soup.face_count(); ++f) {
+    const Exact_point normal = doubled_normal(surface.soup, surface.soup.loop(f));
+    if (dot(normal, doubled_normal(before, before.loop(surface.face_of[f]))) < 0) surface.turned.push_back(f);
+  }
+}
+
+/// Some faces, on points of their own.
+Polygon_soup faces_alone(const Polygon_soup& soup, const std::set<Face_id>& faces) {
+  Polygon_soup alone;
+  std::map<Point_id, Point_id> known;
+  for (const Face_id f : faces) {
+    std::vector<Point_id> corners;
+    for (const Point_id p : soup.loop(f)) {
+      const auto [entry, fresh] = known.try_emplace(p, static_cast<Point_id>(alone.point_count()));
+      if (fresh) {
+        const Exact_point at = soup.point(p);
+        alone.add_point(at[0], at[1], at[2]);
+      }
+      corners.push_back(entry->second);
+    }
+    alone.add_face(corners);
+  }
+  return alone;
+}
+
 /// What crosses that did not: by faces before, of which triangles of one may not cross, either.
-void add_crossing(Rounded_surface& surface, const Pairs& before, const Rounding_progress& progress) {
+void add_crossing(Rounded_surface& surface, const Polygon_soup& soup, const Rounding_progress& progress) {
   if (surface.moved == 0) return;
-  for (const auto& [pair, goes_through] : crossings(surface.soup, progress)) {
-    const auto known = before.find(std::minmax(surface.face_of[pair.first], surface.face_of[pair.second]));
+  // 1. What crosses now. Faces before are asked of only then, and only those: their points may take many digits.
+  const Pairs now = crossings(surface.soup, progress);
+  std::set<Face_id> faces;
+  for (const auto& [pair, goes_through] : now)
+    for (const Face_id face : {pair.first, pair.second}) faces.insert(surface.face_of[face]);
+  // 2. What of it did before.
+  const Pairs before = faces.empty() ? Pairs{} : crossings(faces_alone(soup, faces), progress);
+  const auto place_of = [&](Face_id face) {
+    return static_cast<Face_id>(std::distance(faces.begin(), faces.find(surface.face_of[face])));
+  };
+  for (const auto& [pair, goes_through] : now) {
+    const auto known = before.find(std::minmax(place_of(pair.first), place_of(pair.second)));
     if (known == before.end() || (goes_through && !known->second)) surface.crossing.push_back(pair);
   }
 }
@@ -200,7 +248,7 @@ void add_misplaced(Rounded_surface& surface, const Rounding_progress& progress) 
       const int front = fragment.front.empty() ? 0 : fragment.front[0].number;
       int behind = front;
       for (const Result_fragment::Part& part : fragment.parts) behind += part.turned ? -1 : 1;
-      if ((front != 0 && front != 1) || (behind != 0 && behind != 1))
+      if (std::min(front, behind) != 0 || std::max(front, behind) != 1)
         for (const Result_fragment::Part& part : fragment.parts) faces.insert(part.face);
     }
   }
@@ -214,6 +262,40 @@ std::uint64_t mixed(std::uint64_t x) {
   return x ^ x >> 31;
 }
 
+/// What a surface winds round positively, exactly; of each face of that which one of the surface's it is a part of.
+/// Pre: no face crosses itself.
+Hole_free resolved(const Polygon_soup& surface, const Rounding_progress& progress) {
+  Set_options options;
+  options.progress = progress;
+  const Set_result result = set_operation(Operands(std::span(&surface, 1)), options);
+  Hole_free flat = without_holes(result.soup);
+  for (Face_id& face : flat.face_of) face = result.faces[face].face;
+  return flat;
+}
+
+bool crosses_itself(const Polygon_soup& surface) { return !flaws(Operands(std::span(&surface, 1))).empty(); }
+
+std::set<Place> places_of(const Polygon_soup& rounded) {
+  std::set<Place> places;
+  for (Point_id p = 0; p < rounded.point_count(); ++p) {
+    const Exact_point at = rounded.point(p);
+    places.insert({nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2])});
+  }
+  return places;
+}
+
+/// Which points before are none of the surface's, and which of its own are new.
+void add_changed_points(Rounded_surface& surface, const Polygon_soup& before, const std::vector<Place>& nearest) {
+  const std::set<Place> now = places_of(surface.soup), then(nearest.begin(), nearest.end());
+  for (Point_id p = 0; p < before.point_count(); ++p)
+    if (now.count(nearest[p]) == 0) surface.vanished.push_back(p);
+  for (Point_id p = 0; p < surface.soup.point_count(); ++p) {
+    const Exact_point at = surface.soup.point(p);
+    if (then.count({nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2])}) == 0)
+      surface.added.push_back(p);
+  }
+}
+
 }  // namespace
 
 Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress) {
@@ -223,53 +305,56 @@ Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate,
     places.push_back(nearest_place(soup.point(p), to));
   }
   Rounded_surface result = surface_at(soup, places, triangulate, false, progress);
-  if (result.moved > 0) add_crossing(result, crossings(soup, progress), progress);
+  result.farthest = double_above(farthest_step(soup, places));
+  add_turned(result, soup);
+  add_crossing(result, soup, progress);
   add_misplaced(result, progress);
   return result;
 }
 
 Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress) {
-  constexpr std::size_t most_rounds = 40;
-  constexpr std::uint32_t turns_on_a_grid = 6;
+  constexpr std::size_t most_rounds = 40, aside_every = 3;
   Rounded_surface first = rounded(soup, to, triangulate, progress);
   if (first.is_sound()) return first;
-  const Pairs before = crossings(soup, progress);
+  // The exact surface of each round, and of its faces which one of the first's each is a part of.
+  Hole_free now{soup, std::vector<Face_id>(soup.face_count())};
+  std::iota(now.face_of.begin(), now.face_of.end(), Face_id{0});
   std::vector<Place> nearest;
-  for (Point_id p = 0; p < soup.point_count(); ++p) nearest.push_back(nearest_place(soup.point(p), to));
-  std::vector<Place> least_places = nearest;
-  std::vector<std::uint32_t> turns(soup.point_count());
-  Rounded_surface least = first;  // of all so far what is broken least
+  std::set<Face_id> not_planar;
+  Rational farthest;
   for (std::size_t round = 1; round <= most_rounds; ++round) {
-    // 1. The corners of all faces at fault are put elsewhere.
-    std::set<Point_id> at_fault;
-    const auto add = [&](Face_id face) {
-      for (const Point_id p : soup.loop(least.face_of[face])) at_fault.insert(p);
-    };
-    for (const Face_id face : least.collapsed) add(face);
-    for (const Face_id face : least.turned) add(face);
-    for (const Face_id face : least.misplaced) add(face);
-    for (const auto& [one, other] : least.crossing) {
-      add(one);
-      add(other);
+    // 1. Points get places: the first ones the nearest numbers, which stay; new ones of a grid, now and then beside the
+    // nearest, lest the same comes again and again.
+    std::vector<Place> places;
+    const bool aside = round > aside_every && round % aside_every == 0;
+    for (Point_id p = 0; p < now.soup.point_count(); ++p) {
+      const Exact_point at = now.soup.point(p);
+      places.push_back(nearest_place(at, to));
+      if (round > 1 && !is_at(at, places[p]))
+        places[p] = place_on_grid(at, to, aside ? mixed(std::uint64_t{p} << 32 | round) : 0);
     }
-    std::vector<Place> places = least_places;
-    for (const Point_id p : at_fault) {
-      const std::uint32_t turn = turns[p]++;
-      const std::uint64_t seed = turn % turns_on_a_grid == 0 ? 0 : mixed(std::uint64_t{p} << 32 | turn);
-      places[p] = snapped_place(soup.point(p), to, static_cast<int>(turn / turns_on_a_grid), seed);
-    }
-    // 2. What that breaks, and mends.
-    Rounded_surface surface = surface_at(soup, places, triangulate, true, progress);
-    add_crossing(surface, before, progress);
+    if (round == 1) nearest = places;
+    farthest += farthest_step(now.soup, places);
+    // 2. What that breaks.
+    Rounded_surface surface = surface_at(now.soup, places, triangulate, true, progress);
+    for (const Face_id face : surface.not_planar) not_planar.insert(now.face_of[face]);
+    add_crossing(surface, now.soup, progress);
     add_misplaced(surface, progress);
-    if (surface.is_sound()) {
+    const bool is_sound = surface.is_sound();
+    if (!is_sound && crosses_itself(surface.soup)) surface = surface_at(now.soup, places, true, true, progress);
+    for (Face_id& face : surface.face_of) face = now.face_of[face];
+    if (is_sound) {
+      surface.moved = first.moved;
+      surface.farthest = double_above(farthest);
+      surface.not_planar.assign(not_planar.begin(), not_planar.end());
+      add_turned(surface, soup);
+      add_changed_points(surface, soup, nearest);
       surface.rounds = round;
-      for (Point_id p = 0; p < soup.point_count(); ++p) surface.snapped += places[p] != nearest[p];
       return surface;
     }
-    if (surface.faults() > least.faults() && round % 4 != 0) continue;
-    least = std::move(surface);
-    least_places = std::move(places);
+    // 3. What it winds round, exactly: it crosses nowhere, but has new points.
+    now = resolved(surface.soup, progress);
+    for (Face_id& face : now.face_of) face = surface.face_of[face];
   }
   first.rounds = most_rounds;
   return first;

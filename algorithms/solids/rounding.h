@@ -16,24 +16,26 @@ enum class Rounding { to_double, to_float };
 /// A rounded surface, and all that it is not any more. Faces are the rounded soup's.
 struct Rounded_surface {
   Polygon_soup soup;
-  std::vector<Face_id> face_of;     ///< the face before that each is, or is a triangle of
-  std::size_t moved = 0;            ///< points
-  double farthest = 0;              ///< no coordinate was moved by more
-  std::vector<Face_id> not_planar;  ///< faces before, now triangles
-  std::vector<Face_id> collapsed;   ///< without area now
+  std::vector<Face_id> face_of;     ///< the face before that each is, or is a part of
+  std::size_t moved = 0;            ///< points before
+  double farthest = 0;              ///< no coordinate of the surface was moved by more, in all rounds together
+  std::vector<Face_id> not_planar;  ///< faces before, now triangles, or parts of some
   std::vector<Face_id> turned;      ///< whose normals point to the other side of their planes now
+  std::vector<Face_id> collapsed;   ///< without area now
   /// Pairs that have a segment in common inside one of them, though the faces before had not, or go through each other
   /// there, though of those one only stood upon the other; a face that crosses itself is a pair.
   std::vector<std::pair<Face_id, Face_id>> crossing;
-  /// Where none of these is: faces beside which the surface winds otherwise than once, or not at all, as where a thin
-  /// solid is turned inside out and no normal is.
+  /// Where none of these two is: faces of which not the one side is wound round once and the other not at all, as where
+  /// a thin solid is turned inside out and no normal is, or its two sides lie upon each other.
   std::vector<Face_id> misplaced;
-  std::size_t rounds = 0, snapped = 0;  ///< of snapping; points that it put elsewhere than at the nearest numbers
+  std::size_t rounds = 0;          ///< of snapping
+  std::vector<Point_id> vanished;  ///< by snapping: points before, at whose nearest numbers no corner is
+  std::vector<Point_id> added;     ///< by snapping: the surface's points that are nearest to none before
 
-  /// Whether it bounds what it goes round: no face is turned over or without area, no pair crosses that did not, and it
-  /// winds once round each point, or not at all.
+  /// Whether it bounds a solid: no face is without area, no pair crosses that did not, and each has its inside on one
+  /// side, wound round once. Slivers may be turned over.
   bool is_sound() const { return faults() == 0; }
-  std::size_t faults() const { return collapsed.size() + turned.size() + crossing.size() + misplaced.size(); }
+  std::size_t faults() const { return collapsed.size() + crossing.size() + misplaced.size(); }
 };
 
 using Rounding_progress = std::function<void(std::size_t done, std::size_t total)>;
@@ -47,11 +49,16 @@ using Rounding_progress = std::function<void(std::size_t done, std::size_t total
 Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate = false,
                         const Rounding_progress& progress = {});
 
-/// Rounds likewise, then moves the corners of faces that this breaks: round by round to the nearest point of a grid of
-/// the numbers' step, then to another one beside it, then of a grid twice as coarse, ... until the surface is sound.
-/// Points that meet become one, and faces without two different neighbours vanish. Post: sound, or, after a bound of
-/// rounds (40), what rounded() returns, with that number of rounds. A surface that was closed
-/// is closed. Pre, Exact, `progress`: as above. Cost: that of rounded(), for each round.
+/// Rounds likewise; where that is not sound, snaps, in rounds: of the rounded surface, in triangles where faces are not
+/// planar any more, the exact surface of what it winds round positively is made, whose new points, where faces crossed,
+/// are rounded in the next round, to a grid of the step that the numbers have at their greatest coordinate; every third
+/// round to one beside the nearest. Points that meet become one, and faces without two different neighbours vanish.
+/// Post: sound, or, after 40 rounds, what rounded() returns, with that number of rounds. Each point before is at its
+/// nearest numbers, or no corner any more. Off `farthest` from the surface before, along each axis, what was inside is,
+/// and nothing else. Degenerate: what is thinner than the numbers' step vanishes, all of it perhaps: no faces then.
+/// Pre, Exact, `progress`: as above. Cost: that of rounded() and of a union, of coordinates of few digits, for each
+/// round. Ref: Lazard and Valque, Removing self-intersections in 3D meshes while preserving floating-point coordinates.
+/// Proof: P-117
 Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate = false,
                         const Rounding_progress& progress = {});
 

@@ -133,7 +133,7 @@ Told_volume write_volume(const Shadow_arguments& arguments, const Scene& scene, 
                {"volume", to_string(size)},
                {"box", {point_json(made.box[0]), point_json(made.box[1])}},
                {"seconds", since.seconds()}};
-  if (rounding) told.json["rounding"] = rounding_json(*rounding);
+  if (rounding) told.json["rounding"] = rounding_json(*rounding, flat);
   told.text = fmt::format(
       "{} in shadow, of {} pieces, within the scene's box and a quarter of its longest side; "
       "{} faces, {:.3f} seconds{}{}",

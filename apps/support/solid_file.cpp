@@ -63,26 +63,29 @@ std::string warning_of_denominator(const Polygon_soup& soup, const std::string& 
   return "";
 }
 
-Json rounding_json(const Rounded_surface& near) {
-  Json crossing = Json::array();
+Json rounding_json(const Rounded_surface& near, const Polygon_soup& soup) {
+  Json crossing = Json::array(), vanished = Json::array(), added = Json::array();
   for (const auto& [one, other] : near.crossing) crossing.push_back({one, other});
-  return {{"moved", near.moved},         {"farthest", near.farthest}, {"not_planar", near.not_planar},
-          {"collapsed", near.collapsed}, {"turned", near.turned},     {"crossing", std::move(crossing)},
-          {"misplaced", near.misplaced}, {"snapped", near.snapped},   {"rounds", near.rounds},
-          {"sound", near.is_sound()}};
+  for (const Point_id p : near.vanished) vanished.push_back(point_json(soup.point(p)));
+  for (const Point_id p : near.added) added.push_back(point_json(near.soup.point(p)));
+  return {{"moved", near.moved},         {"farthest", near.farthest},   {"not_planar", near.not_planar},
+          {"turned", near.turned},       {"collapsed", near.collapsed}, {"crossing", std::move(crossing)},
+          {"misplaced", near.misplaced}, {"rounds", near.rounds},       {"vanished", std::move(vanished)},
+          {"added", std::move(added)},   {"sound", near.is_sound()}};
 }
 
 std::string rounding_text(const Rounded_surface& near) {
   std::string text = fmt::format("{} points, by {:.2g} at most; {} faces no longer planar, now triangles", near.moved,
                                  near.farthest, near.not_planar.size());
+  if (!near.turned.empty()) text += fmt::format("; {} turned over", near.turned.size());
   if (!near.is_sound())
     text += fmt::format(
-        "; {} without area, {} turned over, {} pairs cross that did not, {} inside out: {}write .qoff",
-        near.collapsed.size(), near.turned.size(), near.crossing.size(), near.misplaced.size(),
+        "; {} without area, {} pairs cross that did not, {} inside out: {}write .qoff", near.collapsed.size(),
+        near.crossing.size(), near.misplaced.size(),
         near.rounds == 0 ? "give --snap, or " : fmt::format("{} rounds of snapping did not help; ", near.rounds));
   else if (near.rounds > 0)
-    text += fmt::format("; {} points were put elsewhere than nearest, in {} rounds, and nothing is broken",
-                        near.snapped, near.rounds);
+    text += fmt::format("; snapped in {} rounds, by which {} points vanished and {} came: nothing is broken",
+                        near.rounds, near.vanished.size(), near.added.size());
   return text;
 }
 

@@ -24,7 +24,8 @@ std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::
 /// reads it as it is, if there is one, by its name. Else empty.
 std::string warning_of_denominator(const Polygon_soup& soup, const std::string& file, const std::string& reads_it = "");
 
-Json rounding_json(const Rounded_surface& near);
+/// `soup`: before it was rounded.
+Json rounding_json(const Rounded_surface& near, const Polygon_soup& soup);
 std::string rounding_text(const Rounded_surface& near);
 
 }  // namespace sightline::app

@@ -397,9 +397,63 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random&
   return {};
 }
 
+/// Of a face, of the length of twice its area.
+Exact_point normal_of(const Polygon_soup& soup, Face_id face) {
+  const auto loop = soup.loop(face);
+  Exact_point sum;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    const Exact_point part =
+        cross(minus(soup.point(loop[i]), soup.point(loop[0])), minus(soup.point(loop[i + 1]), soup.point(loop[0])));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+  }
+  return sum;
+}
+
+/// Whether a cube around p, 2 reach wide, is seen to meet no face: by its box, or its plane.
+bool is_off(const Polygon_soup& surface, const Exact_point& p, const Rational& reach) {
+  for (Face_id f = 0; f < surface.face_count(); ++f) {
+    bool apart = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto loop = surface.loop(f);
+      const auto is_above = [&](Point_id q) { return surface.point(q)[k] > p[k] + reach; };
+      const auto is_below = [&](Point_id q) { return surface.point(q)[k] < p[k] - reach; };
+      apart =
+          apart || std::all_of(loop.begin(), loop.end(), is_above) || std::all_of(loop.begin(), loop.end(), is_below);
+    }
+    if (apart) continue;
+    const Exact_point normal = normal_of(surface, f);
+    const Rational height = abs(dot(normal, minus(p, surface.point(surface.loop(f)[0]))));
+    if (height <= reach * (abs(normal[0]) + abs(normal[1]) + abs(normal[2]))) return false;
+  }
+  return true;
+}
+
+/// Farther from a surface than rounding moved anything, what was inside is, and nothing else.
+std::string flaw_of_places(const Polygon_soup& before, const Rounded_surface& after, Random& random) {
+  const std::vector<Exact_point> corners = corners_of(before);
+  if (corners.empty()) return after.soup.face_count() == 0 ? "" : "faces come of nothing";
+  const Rational reach = exact(after.farthest);
+  const Solid_oracle then(before), now(after.soup);
+  constexpr int points = 8;
+  for (int i = 0; i < points; ++i) {
+    Exact_point p = any_point_of(corners, random);
+    const bool is_near = random.chance(1, 2);
+    if (is_near) p = corners[random.below(corners.size())];
+    for (Rational& x : p) {
+      const auto steps = static_cast<long>(random.between(-8, 8));
+      if (is_near) x += reach * steps / 3;
+    }
+    if (!is_off(before, p, reach) || then.is_on_a_face(p)) continue;
+    if (now.is_on_a_face(p)) return "the surface is at " + text_of(p) + ", farther than anything moved";
+    if (now.winding(p, random) != then.winding(p, random))
+      return text_of(p) + " is inside before or after only, farther than anything moved";
+  }
+  return {};
+}
+
 std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& random) {
   const Set_result result = result_of(solids, set_operations[random.below(4)]);
-  const Rational far = generate::power_of_two(static_cast<long>(random.below(22)));
+  const Rational far = generate::power_of_two(static_cast<int>(random.between(10, 24)));
   const Polygon_soup exact = without_holes(generate::translated(result.soup, {far, far / 3, 0})).soup;
   std::vector<Rounded_surface> both;
   try {
@@ -414,7 +468,14 @@ std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& ra
     const bool crosses_itself =  // a face; its edges are open then
         std::any_of(all.begin(), all.end(), [](const Operand_flaw& flaw) { return !flaw.why.empty(); });
     if (!all.empty() && (!crosses_itself || near.is_sound())) return name + "the surface is not closed any more";
+    for (Face_id f = 0; f < near.soup.face_count(); ++f) {
+      const Exact_point before = normal_of(exact, near.face_of[f]);
+      const bool is_turned = dot(normal_of(near.soup, f), before) < 0;
+      if (is_turned != (std::count(near.turned.begin(), near.turned.end(), f) > 0))
+        return name + "a face is turned over and not said to be, or the other way round";
+    }
     if (!near.is_sound()) continue;
+    if (const std::string flaw = flaw_of_places(exact, near, random); !flaw.empty()) return name + flaw;
     const Rational signed_volume = volume(near.soup);
     for (const Inside_rule rule : {Inside_rule::positive, Inside_rule::nonzero})
       if (volume(result_of(one, Set_operation::unite, rule).soup) != signed_volume)
@@ -440,7 +501,7 @@ Subject boolean() {
           "proof", "the certificate is accepted, and rejected when it is forged",
           [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_certificate(solids, random); }),
       check_of_solids(
-          "rounding", "rounded results are closed, and solids where they are said to be sound",
+          "rounding", "rounded results are closed, and where they are said to be sound, solids with the same inside",
           [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_rounding(solids, random); })};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut"});
   subject.checks.push_back(judged_solids_check());

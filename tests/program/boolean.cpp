@@ -122,7 +122,7 @@ TEST_F(Boolean, says_volumes_that_doubles_do_not_hold) {
   EXPECT_NE(r.err.find("large.obj: a coordinate is beyond what floats hold"), std::string::npos) << r;
 }
 
-TEST_F(Boolean, that_snapping_leaves_broken_has_an_exit_code) {
+TEST_F(Boolean, snapping_mends_what_is_hardly_wider_than_the_numbers_step_and_says_what_moved) {
   const std::string a = box("a.off", {8000000, 8000000, 8000000}, {8000002, 8000002, 8000002});
   std::string askew = "OFF\n8 6 0\n";  // turned about z, at less than the step of floats from there
   for (int k = 0; k < 8; ++k) {
@@ -134,14 +134,40 @@ TEST_F(Boolean, that_snapping_leaves_broken_has_an_exit_code) {
   }
   const std::string b = file("b.qoff", askew + "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n");
   const std::string out = path("u.off").string();
-  const Outcome r =
-      run({"boolean", "symmetric-difference", a, b, "--out", out, "--round", "float", "--snap", "--json", "-"});
-  EXPECT_EQ(r.code, disagreement) << r;
-  EXPECT_EQ(r.json()["result"]["rounding"]["sound"], false) << r;
-  EXPECT_TRUE(fs::exists(out)) << "what nearest points give";
-  EXPECT_EQ(run({"boolean", "symmetric-difference", a, b, "--out", out, "--round", "float"}).code, done)
-      << "not asked for";
-  EXPECT_EQ(run({"boolean", "symmetric-difference", a, b, "--out", out, "--snap"}).code, done) << "doubles hold it";
+  const auto run_with = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"boolean", "symmetric-difference", a, b, "--out", out};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  // 1. Rounding breaks it, and says so.
+  const Json broken = run_with({"--round", "float", "--json", "-"}).json()["result"]["rounding"];
+  EXPECT_EQ(broken["sound"], false) << broken;
+  EXPECT_EQ(broken["vanished"].size() + broken["added"].size(), 0u);
+  // 2. Snapping mends it: what it wrote is a solid, as it stands.
+  const Outcome r = run_with({"--round", "float", "--snap", "--json", "-"});
+  EXPECT_EQ(r.code, done) << r;
+  const Json rounding = r.json()["result"]["rounding"];
+  EXPECT_EQ(rounding["sound"], true) << r;
+  EXPECT_GT(rounding["rounds"], 0);
+  EXPECT_LT(rounding["farthest"], 8);
+  const Json again = run({"boolean", "union", out, "--json", "-"}).json()["result"];
+  const Json nonzero = run({"boolean", "union", out, "--inside", "nonzero", "--json", "-"}).json()["result"];
+  EXPECT_EQ(again["volume"], nonzero["volume"]);
+  const std::string said = run_with({"--round", "float", "--snap"}).out;
+  EXPECT_NE(said.find("points vanished and"), std::string::npos) << said;
+  // 3. A slab that is too thin for floats vanishes, all of it, and its exact corners are listed.
+  const std::string slab = file("slab.qoff",
+                                "OFF\n8 6 0\n0 0 1\n0 0 1073741825/1073741824\n0 1 1\n0 1 1073741825/1073741824\n"
+                                "1 0 1\n1 0 1073741825/1073741824\n1 1 1\n1 1 1073741825/1073741824\n"
+                                "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n");
+  const Outcome gone = run({"boolean", "union", slab, "--out", out, "--round", "float", "--snap", "--json", "-"});
+  EXPECT_EQ(gone.code, done) << gone;
+  EXPECT_EQ(gone.json()["result"]["faces"], 0);
+  const Json lost = gone.json()["result"]["rounding"]["vanished"];
+  EXPECT_EQ(lost.size(), 8u);
+  EXPECT_EQ(std::count(lost.begin(), lost.end(), Json::parse(R"(["1", "1", "1073741825/1073741824"])")), 1) << lost;
+  // 4. Doubles hold the two.
+  EXPECT_EQ(run_with({"--snap", "--json", "-"}).json()["result"]["rounding"]["rounds"], 0);
 }
 
 TEST_F(Boolean, refuses_options_that_would_do_nothing_and_files_that_nothing_can_be_written_to) {
