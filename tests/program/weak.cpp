@@ -301,7 +301,7 @@ static const char* const tangent =
 
 TEST_F(Weak, hands_what_lines_leave_open_to_events_and_says_what_else_is_open) {
   const std::string scene = file("tangent.qoff", tangent), to = path("tangent.json").string();
-  const std::vector<std::string> words{scene, "--from", "-1,-1,0 1,-1,0 1,1,0 -1,1,0", "--cells", "300"};
+  const std::vector<std::string> words{scene, "--from", "-1,-1,0 1,-1,0 1,1,0 -1,1,0", "--cells", "5"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.begin(), words.begin(), words.end());
     return more;
@@ -331,11 +331,15 @@ TEST_F(Weak, hands_what_lines_leave_open_to_events_and_says_what_else_is_open) {
   EXPECT_EQ(both["open"].size(), 0u);
   EXPECT_EQ(both["by_events"], Json::array({0}));
   EXPECT_EQ(both["hidden"], weak({scene, "--from", words[2], "--method", "events"})["result"]["hidden"]);
-  EXPECT_EQ(both["unproved"].size(), 0u);  // a proof was found once the answer was known
+  EXPECT_EQ(both["unproved"], Json::array({0}));  // as certificates do
+  EXPECT_NE(run({"weak", scene, "--from", words[2], "--cells", "5"}).out.find("unproved"), std::string::npos);
+  // With more cells lines decide and prove it all, in a second search.
+  const Json proved = weak({scene, "--from", words[2], "--cells", "300", "--certificate", to})["result"];
+  EXPECT_EQ(proved["hidden"], both["hidden"]);
+  EXPECT_EQ(proved["unproved"].size() + proved["by_events"].size(), 0u);
   const Outcome checked = run({"verify", scene, to, "--json", "-"});
   EXPECT_EQ(checked.code, done) << checked;
   EXPECT_NE(checked.json()["result"]["why"].get<std::string>().find(" 0 undecided"), std::string::npos) << checked;
-  EXPECT_EQ(run({"weak", scene, "--from", words[2], "--cells", "300"}).out.find("unproved"), std::string::npos);
 }
 
 TEST_F(Weak, writes_the_surfaces_of_events_exactly_or_as_strips) {
