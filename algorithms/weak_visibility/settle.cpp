@@ -13,7 +13,7 @@
 namespace sightline {
 namespace {
 
-constexpr std::size_t thorough_cells = 2000;  // hardly any that more would decide
+constexpr std::size_t thorough_cells = 300;  // few that more would decide, and those take minutes
 constexpr int thorough_bisections = 40;
 
 struct Cell {

@@ -56,7 +56,7 @@ inline constexpr std::size_t usual_event_edges = 300;
 /// Takes what a search left undecided to a second one, by dearer means (Weak_search_options::thorough): of 56 faces
 /// that the first one leaves in 3,003 degenerate scenes it decides all, with their proofs. It gives up a pair with the
 /// first cell that stays open; what it leaves undecided keeps the open cells of the first search. Pre: found by
-/// weakly_visible(..., search). Post: as of weakly_visible(). Cost: at most 2,000 cells a pair, with programs in
+/// weakly_visible(..., search). Post: as of weakly_visible(). Cost: at most 300 cells a pair, with programs in
 /// rationals: milliseconds as a rule, seconds where edges are a few ulps from concurrent. Exact: yes. Proof: P-71,
 /// P-71h
 void search_thoroughly(const Occluders& occluders, const std::vector<Weak_source>& sources, Weak_options search,
