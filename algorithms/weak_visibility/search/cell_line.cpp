@@ -62,9 +62,9 @@ Line_finder::Whole_rows Line_finder::whole_rows(const Line_cell& cell) {
   return rows;
 }
 
-bool Line_finder::find_exactly(const Line_cell& cell, Line_weights& line, Weak_counters& counters) {
+bool Line_finder::find_exactly(const Line_cell& cell, const Whole_rows& whole, Line_weights& line,
+                               Weak_counters& counters) {
   const std::size_t m = cell.domain->source.size(), n = cell.domain->target.size();
-  const Whole_rows whole = whole_rows(cell);
   line.exact_source = whole_weights(line.source);
   line.exact_target = whole_weights(line.target);
   for (int round = 0; round < 4; ++round) {

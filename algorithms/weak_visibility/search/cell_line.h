@@ -25,19 +25,19 @@ class Line_finder {
   /// Improves one end for the other, in turn, until a line is strictly in the cell; then once more, to be well inside.
   bool find(const Line_cell& cell, Line_weights& line, Weak_counters& counters);
 
+  /// A cell's rows in units of 2^-192 of the least power of two above their entries, each rounded down: a mixture of
+  /// pairs that is positive here is so in the cell.
+  using Whole_rows = std::vector<std::vector<Integer>>;
+  static Whole_rows whole_rows(const Line_cell& cell);
+
   /// The same in integers, for cells that are thinner than what doubles tell apart. Exact: yes, a line that it finds
   /// is in the cell; one that is there may be missed. Cost: four games of a few hundred bits.
-  bool find_exactly(const Line_cell& cell, Line_weights& line, Weak_counters& counters);
+  bool find_exactly(const Line_cell& cell, const Whole_rows& whole, Line_weights& line, Weak_counters& counters);
 
  private:
   static constexpr double least_margin = 1e-11;
 
-  /// A cell's rows in units of 2^-`bits` of the least power of two above their entries, each rounded down: a mixture of
-  /// pairs that is positive here is so in the cell.
-  using Whole_rows = std::vector<std::vector<Integer>>;
   static constexpr long bits = 192;
-
-  static Whole_rows whole_rows(const Line_cell& cell);
 
   double improve(const Line_cell& cell, Line_weights& line, bool source, Weak_counters& counters);
 

@@ -495,6 +495,11 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
   }
 
   // 3. What takes longer.
+  std::optional<Line_finder::Whole_rows> whole;  // once they are asked for
+  const auto is_found_exactly = [&] {
+    if (!whole) whole = Line_finder::whole_rows(cell_);
+    return finder_.find_exactly(cell_, *whole, line, *counters_);
+  };
   if (ends_with(proofs_.at_corner(cell_, proof, *counters_))) return Look::ended;
   const bool worth_it = is_worth_it(domain.narrowed) || options_->thorough;
   if (value < thin && (worth_it || domain.narrowed < forms_after)) {
@@ -502,13 +507,13 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
       return Look::ended;
     for (std::size_t c = 0; c < std::min<std::size_t>(2, starts.size()); ++c) {
       line = starts[c];
-      if (finder_.find_exactly(cell_, line, *counters_)) return Look::found;
+      if (is_found_exactly()) return Look::found;
     }
   }
   if (options_->thorough && (domain.narrowed < forms_after || is_worth_it(domain.narrowed)))
     for (std::size_t k = 0; k < random_starts; ++k) {
       line = random_line(domain, k % 2 == 0 ? 3 : 15);
-      if (finder_.find_exactly(cell_, line, *counters_)) return Look::found;
+      if (is_found_exactly()) return Look::found;
     }
   if (worth_it && ends_with(proofs_.by_forms(cell_, true, options_->thorough, proof, *counters_) ||
                             proofs_.by_forms(cell_, false, options_->thorough, proof, *counters_)))
