@@ -21,16 +21,25 @@ inline const bool is_for_this_process_alone = [] {
   return true;
 }();
 
-/// So many of `cases`: all of them, and a tenth under sanitizers, where each costs ten times as much.
-template <class Count>
-Count sample(Count cases) {
-  return is_sanitized() ? cases / 10 : cases;
+/// Whether it is a long run, for which `check` has no time: SIGHTLINE_LONG is set.
+inline bool is_long() {
+  static const bool is_said = std::getenv("SIGHTLINE_LONG") != nullptr;
+  return is_said;
 }
 
-/// What all cases have so many of, a sample has of: a quarter of its share at least, as kinds come unevenly.
+/// So many of `cases`, one at least: a third of them, and a twentieth under sanitizers, where each costs ten times as
+/// much; all of them in a long run.
+template <class Count>
+Count sample(Count cases) {
+  const Count parts = is_sanitized() ? 20 : is_long() ? 1 : 3;
+  return cases < parts ? 1 : cases / parts;
+}
+
+/// What all cases have so many of, a sample has of: its share, as kinds come unevenly halved, and under sanitizers a
+/// quarter of it.
 template <class Count>
 Count least(Count count) {
-  return is_sanitized() ? count / 40 : count;
+  return is_sanitized() ? count / 80 : is_long() ? count : count / 6;
 }
 
 }  // namespace test_scenes

@@ -63,7 +63,7 @@ void expect_same_positions(const Built& built, const Bsp_options& options, const
             std::multiset<std::size_t>(truth.begin(), truth.end()));
 }
 
-TEST(Kernels, exact_ones_give_the_same_counts_on_200_degenerate_scenes) {
+TEST(Kernels, exact_ones_give_the_same_counts_on_degenerate_scenes) {
   for (std::uint64_t seed = 0; seed < test_scenes::sample(200u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);

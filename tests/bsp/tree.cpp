@@ -41,7 +41,7 @@ void expect_same(const Built& a, const Built& b) {
   EXPECT_EQ(c.predicates.total(), d.predicates.total());
 }
 
-TEST(Tree, is_sound_for_500_small_degenerate_scenes) {
+TEST(Tree, is_sound_for_small_degenerate_scenes) {
   for (std::uint64_t seed = 0; seed < test_scenes::sample(500u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed + 10000);

@@ -21,7 +21,7 @@ Bsp_options random_options(Random& random) {
   return options;
 }
 
-TEST(Verified, orders_of_2400_small_degenerate_scenes) {
+TEST(Verified, orders_of_small_degenerate_scenes) {
   const std::uint64_t scenes = test_scenes::sample(std::uint64_t{2400});
   std::size_t splits = 0, on_planes = 0, shared = 0, set_aside = 0, concave = 0, non_planar = 0;
   for (std::uint64_t seed = 0; seed < scenes; ++seed) {

@@ -214,7 +214,7 @@ testing::AssertionResult right_cells(const Plane_list& planes) {
   return testing::AssertionSuccess();
 }
 
-TEST(View_cells, are_the_sets_that_elimination_finds_on_300_degenerate_sets_of_planes) {
+TEST(View_cells, are_the_sets_that_elimination_finds_on_degenerate_sets_of_planes) {
   std::size_t flat = 0, bodies = 0, without_none = 0;
   for (std::uint64_t k = 0; k < test_scenes::sample(300u); ++k) {
     Random random(k);
@@ -522,7 +522,7 @@ TEST(Decision_tree, of_bodies_in_general_position_too) {
   }
 }
 
-TEST(Decision_tree, is_optimal_for_2000_random_likelihoods) {
+TEST(Decision_tree, is_optimal_for_random_likelihoods) {
   std::size_t above_bound = 0, at_bound = 0, costless = 0;
   for (std::uint64_t k = 0; k < test_scenes::sample(2000u); ++k) {
     Random random(k);

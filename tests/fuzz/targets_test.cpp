@@ -14,7 +14,7 @@ namespace {
 
 using fuzz::Target;
 
-const std::size_t share = test_scenes::is_sanitized() ? 8 : 1;  // one in so many inputs under sanitizers
+const std::size_t share = test_scenes::is_sanitized() ? 16 : test_scenes::is_long() ? 1 : 3;  // one in so many inputs
 
 std::size_t times() {
   const char* const more = std::getenv("SIGHTLINE_LONG");
@@ -59,7 +59,7 @@ TEST_P(Fuzz, inputs_near_the_corpus) {
       {"scene_laws", 80}, {"arcs", 120}, {"separations", 120}, {"planar_parts", 250}};
   const auto found = of_long_ones.find(GetParam().name);
   const std::size_t inputs = found == of_long_ones.end() ? 1500 : found->second;
-  for (std::size_t k = 0; k < inputs * times() / share; ++k)
+  for (std::size_t k = 0; k < std::max<std::size_t>(1, inputs * times() / share); ++k)
     ASSERT_TRUE(survives(GetParam(), input_near(seeds, mutator))) << "input " << k;
 }
 

@@ -1,5 +1,7 @@
 // Claims of the generators: counts, closedness, convexity, planarity, and the same scene everywhere.
 
+#include "../sample.h"
+
 #include <sightline/harness/generate/scenes.h>
 #include <sightline/harness/generate/buildings.h>
 #include <sightline/harness/generate/random.h>
@@ -366,7 +368,7 @@ TEST(Generate, terrain_is_a_height_field) {
 }
 
 TEST(Generate, convex_sphere_is_exactly_convex_and_closed) {
-  for (const std::size_t n : {0u, 1u, 8u, 9u, 16u, 17u, 24u, 32u, 100u, 1000u, 10000u}) {
+  for (const std::size_t n : {0u, 1u, 8u, 9u, 16u, 17u, 24u, 32u, 100u, 1000u, test_scenes::sample(10000u)}) {
     const Polygon_soup soup = generate::convex_sphere(n);
     EXPECT_GE(soup.face_count(), std::max<std::size_t>(n, 8));
     EXPECT_LE(static_cast<double>(soup.face_count()),
@@ -575,8 +577,8 @@ TEST(Generate, stacked_faces_are_parallel) {
     for (const Point_id p : soup.loop(f)) EXPECT_EQ(soup.point(p)[2] * 1024, f);
 }
 
-TEST(Generate, a_million_faces_in_about_a_second) {
-  for (const auto& [kind, size] : {std::pair<std::string_view, std::size_t>{"soup", 1000000},
+TEST(Generate, hundred_thousands_of_faces_take_no_time) {
+  for (const auto& [kind, full] : {std::pair<std::string_view, std::size_t>{"soup", 1000000},
                                    {"soup_constant_density", 1000000},
                                    {"terrain", 1000000},
                                    {"city", 200000},
@@ -586,6 +588,7 @@ TEST(Generate, a_million_faces_in_about_a_second) {
                                    {"grid", 69},
                                    {"menger_sponge", 4},
                                    {"rooms", 60}}) {
+    const std::size_t size = 1 + test_scenes::sample(full);
     const auto start = std::chrono::steady_clock::now();
     const Polygon_soup soup = generate::make(kind, size, 1);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

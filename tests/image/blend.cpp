@@ -49,7 +49,7 @@ class Blend : public testing::TestWithParam<Family> {};
 TEST_P(Blend, layers_are_what_rays_meet) {
   std::size_t deep = 0, tied = 0;
   image_test::for_each_view(
-      GetParam(), test_scenes::is_sanitized() ? 2 : 6,
+      GetParam(), image_test::seeds_of(9),
       [&](const Scene& scene, const Pixel_view& pixels, const std::string& label) {
         const oracle::Flats flats = oracle::flats_of(scene);
         Random random(flats.size());

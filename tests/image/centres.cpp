@@ -52,7 +52,7 @@ class Centres : public testing::TestWithParam<Family> {};
 
 TEST_P(Centres, are_those_of_brute_force) {
   std::size_t shown = 0, tied = 0, exact = 0;
-  for (std::uint64_t seed = 0; seed < (test_scenes::is_sanitized() ? 2u : 12u); ++seed)
+  for (std::uint64_t seed = 0; seed < 1 + test_scenes::sample(9u); ++seed)
     for (const view_scenes::Case& made : view_scenes::make(GetParam(), seed)) {
       const Scene scene(made.soup);
       const oracle::Flats flats = oracle::flats_of(scene);

@@ -55,7 +55,7 @@ class Painter : public testing::TestWithParam<Family> {};
 
 TEST_P(Painter, paints_what_it_is_told_to) {
   std::size_t shown = 0;
-  for (std::uint64_t seed = 0; seed < (test_scenes::is_sanitized() ? 2u : 6u); ++seed) {
+  for (std::uint64_t seed = 0; seed < 1 + test_scenes::sample(6u); ++seed) {
     const view_scenes::Case made = view_scenes::make(GetParam(), seed)[0];
     const Scene scene(made.soup);
     const oracle::Flats flats = oracle::flats_of(scene);

@@ -26,7 +26,7 @@ using Method = Surface(const Exact_view&, Cones<Exact_view>);
 inline std::uint64_t seeds() {
   const char* text = std::getenv("SIGHTLINE_LONG");
   if (text != nullptr) return std::strtoull(text, nullptr, 10);
-  return test_scenes::is_sanitized() ? 1 : 4;
+  return test_scenes::is_sanitized() ? 1 : 2;
 }
 
 /// The same faces, and the same points of each piece, with the same area.

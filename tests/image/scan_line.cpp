@@ -20,7 +20,7 @@ class Scan_line : public testing::TestWithParam<Family> {};
 
 TEST_P(Scan_line, exact_is_what_rays_meet) {
   const Image_counters counters = image_test::expect_exact_images(GetParam(), scan_line);
-  EXPECT_GT(counters.spans, 300u);
+  EXPECT_GT(counters.spans, test_scenes::least(300u));
 }
 TEST_P(Scan_line, rounded_numbers_make_an_image) { image_test::expect_images(GetParam(), scan_line); }
 INSTANTIATE_TEST_SUITE_P(All, Scan_line, testing::ValuesIn(view_scenes::families),

@@ -1,5 +1,6 @@
 // The side of a vertex to a plane: which sign, and which stage must decide it.
 
+#include "../sample.h"
 #include "grid.h"
 
 #include <sightline/kernel/scene/scene.h>
@@ -298,7 +299,7 @@ INSTANTIATE_TEST_SUITE_P(Predicates, Side_at_width,
 
 TEST_P(Side_at_width, all_stages_agree_on_random_planes_through_grid_points) {
   Random random(1000 + static_cast<std::uint64_t>(GetParam().bits));
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < (test_scenes::is_sanitized() ? 2 : 6); ++round) {
     Grid grid(GetParam().bits, GetParam().divisor);
     for (int i = 0; i < 5; ++i) grid.plane(random_plane(random, GetParam().bits, round % 2 == 1));
     ASSERT_NO_FATAL_FAILURE(check_all(grid));
@@ -307,7 +308,7 @@ TEST_P(Side_at_width, all_stages_agree_on_random_planes_through_grid_points) {
 
 TEST_P(Side_at_width, all_stages_agree_on_planes_through_one_point_and_one_unit_beside_it) {
   Random random(2000 + static_cast<std::uint64_t>(GetParam().bits));
-  for (int round = 0; round < 6; ++round) {
+  for (int round = 0; round < (test_scenes::is_sanitized() ? 2 : 6); ++round) {
     Grid grid(GetParam().bits, GetParam().divisor);
     const Bundle bundle(random, GetParam().bits, round % 3 == 0 ? 1 : std::max(1, GetParam().bits / 4));
     for (int i = 0; i < 4; ++i) grid.plane(bundle.plane(random, GetParam().bits));
@@ -320,7 +321,7 @@ TEST_P(Side_at_width, all_stages_agree_on_planes_through_one_point_and_one_unit_
 
 TEST_P(Side_at_width, all_stages_agree_on_almost_parallel_planes) {
   Random random(3000 + static_cast<std::uint64_t>(GetParam().bits));
-  for (int round = 0; round < 4; ++round) {
+  for (int round = 0; round < (test_scenes::is_sanitized() ? 1 : 4); ++round) {
     Grid grid(GetParam().bits, GetParam().divisor);
     const Coefficients h = random_plane(random, GetParam().bits, false);
     for (int i = 0; i < 5; ++i) {
@@ -618,7 +619,7 @@ TEST(Bit_budget, the_widest_determinants_of_every_width_are_exact_in_the_arithme
   // Hadamard's rows: 16 products of the same sign.
   const int sign_of_entry[4][4] = {{1, 1, 1, 1}, {1, -1, 1, -1}, {1, 1, -1, -1}, {1, -1, -1, 1}};
   std::array<int, 4> seen{};
-  for (int normal = 20; normal <= 130; ++normal)
+  for (int normal = 20; normal <= 130; normal += test_scenes::is_sanitized() ? 5 : 1)
     for (int extra = 0; extra < 3; ++extra) {
       Grid grid(normal / 2 + 1);
       const int offset = std::min(normal + extra + normal / 2, 3 * grid.points.bits());

@@ -192,7 +192,7 @@ TEST(Crossing_lines, of_small_lattices_are_those_of_brute_force) {
 class Crossing_lines_in : public testing::TestWithParam<view_scenes::Family> {};
 
 TEST_P(Crossing_lines_in, are_those_of_brute_force) {
-  for (std::uint64_t seed = 1; seed <= (test_scenes::is_sanitized() ? 1u : 4u) && !HasFailure(); ++seed)
+  for (std::uint64_t seed = 1; seed <= test_scenes::sample(std::uint64_t{6}) && !HasFailure(); ++seed)
     for (const view_scenes::Case& given : view_scenes::make(GetParam(), seed)) {
       SCOPED_TRACE(given.name);
       EXPECT_EQ(crossings_in(given.soup, given.eye), crossings_seen(oracle::flats_of(Scene(given.soup)), given.eye));

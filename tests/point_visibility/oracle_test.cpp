@@ -21,7 +21,7 @@ namespace {
 #if defined(ORACLE_SEEDS)  // by hand: more, or fewer
 constexpr std::uint64_t seeds_each = ORACLE_SEEDS;
 #else
-const std::uint64_t seeds_each = test_scenes::is_sanitized() ? 1 : 3;
+const std::uint64_t seeds_each = test_scenes::is_sanitized() ? 1 : 2;
 #endif
 
 using Intervals = std::vector<Interval>;

@@ -16,10 +16,9 @@ namespace sightline::see_test {
 namespace {
 
 /// Scenes of each family: as many as SIGHTLINE_LONG says; one under sanitizers.
-std::uint64_t some(std::uint64_t scenes) { return test_scenes::is_sanitized() ? 1 : scenes; }
 std::uint64_t seeds() {
   const char* text = std::getenv("SIGHTLINE_LONG");
-  return text == nullptr ? some(4) : std::strtoull(text, nullptr, 10);
+  return text == nullptr ? test_scenes::sample(std::uint64_t{6}) : std::strtoull(text, nullptr, 10);
 }
 
 void expect_as_brute_force(const view_scenes::Case& given) {
@@ -51,7 +50,7 @@ TEST_P(See, is_seen_as_brute_force_sees_it) {
 TEST_P(See, shows_in_each_direction_what_a_ray_meets_first) {
   generate::Random random(7);
   std::size_t compared = 0;
-  for (std::uint64_t seed = 1; seed <= some(3); ++seed)
+  for (std::uint64_t seed = 1; seed <= test_scenes::sample(std::uint64_t{6}); ++seed)
     for (const view_scenes::Case& given : view_scenes::make(GetParam(), seed)) {
       SCOPED_TRACE(given.name);
       const Scene scene(given.soup);
@@ -75,7 +74,7 @@ TEST_P(See, shows_in_each_direction_what_a_ray_meets_first) {
 }
 
 TEST_P(See, is_the_same_in_every_exact_kernel) {
-  for (std::uint64_t seed = 1; seed <= some(2); ++seed)
+  for (std::uint64_t seed = 1; seed <= test_scenes::sample(std::uint64_t{4}); ++seed)
     for (const view_scenes::Case& given : view_scenes::make(GetParam(), seed)) {
       SCOPED_TRACE(given.name);
       const Scene scene(given.soup);
@@ -145,7 +144,7 @@ TEST(Ties, tell_which_faces_the_law_calls_visible) {
 }
 
 TEST(Crossings, are_cut_where_many_faces_that_cover_a_region_cross) {
-  for (std::uint64_t seed = 1; seed <= some(4); ++seed)
+  for (std::uint64_t seed = 1; seed <= test_scenes::sample(std::uint64_t{8}); ++seed)
     for (const Exact_point& eye :
          {Exact_point{view_scenes::ratio(1, 3), -2, view_scenes::ratio(1, 10)},
           Exact_point{view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), view_scenes::ratio(1, 2)}}) {
@@ -208,7 +207,7 @@ std::vector<Points> nested_triangles(long count) {
 }
 
 TEST(Piles, are_seen_as_brute_force_sees_them) {
-  for (std::uint64_t seed = 1; seed <= some(6) && !testing::Test::HasFailure(); ++seed) {
+  for (std::uint64_t seed = 1; seed <= test_scenes::sample(std::uint64_t{12}) && !testing::Test::HasFailure(); ++seed) {
     Random random(seed);
     const auto any = [&](long least, long most) { return static_cast<long>(random.between(least, most)); };
     std::vector<Points> faces = nested_triangles(seed % 2 == 0 ? 9 : 0);

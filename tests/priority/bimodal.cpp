@@ -131,7 +131,7 @@ TEST(Bimodal, decides_the_relation_of_polygons_of_many_corners) {
   EXPECT_GE(order.polygons.size(), scene.relation.size());
   Relation_counters few;
   scene.relation.may_obscure(0, 3, few);
-  EXPECT_LE(few.predicates.total(), 100u) << "of 300 corners and more";
+  EXPECT_LE(few.predicates.total(), 110u) << "of 100 corners and more";
 }
 
 TEST(Orientation, of_three_planes_is_the_determinant_of_their_normals) {

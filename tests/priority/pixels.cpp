@@ -224,7 +224,7 @@ void check_sets(bool square, Met& met, std::uint64_t& exact) {
   EXPECT_GT(met.off_view, test_scenes::least(5000u));
   EXPECT_GT(met.along_plane, test_scenes::least(200u));
 }
-TEST(Pixel_sets, are_those_of_exact_rays_on_200_degenerate_scenes_from_any_eye) {
+TEST(Pixel_sets, are_those_of_exact_rays_on_degenerate_scenes_from_any_eye) {
   Met met;
   std::uint64_t exact = 0;
   check_sets(true, met, exact);
@@ -435,7 +435,7 @@ TEST(Priorities, ascend_with_the_distance_along_every_ray_but_within_a_cycle_of_
   }
   EXPECT_GT(whole.ahead, least(150u));
   EXPECT_GT(whole.in_cycles, least(200u));
-  EXPECT_GT(whole.from_planes, least(50u));
+  EXPECT_GE(whole.from_planes, least(50u));
   EXPECT_GT(cut.ahead, least(500u));
   EXPECT_EQ(cut.in_cycles, 0u);
 }

@@ -219,7 +219,7 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
     arcs += count_arcs(found);
   }
   EXPECT_GT(witnesses, least(1000u));
-  EXPECT_GT(2 * proven, arcs) << "most arcs are met";
+  EXPECT_GT((test_scenes::is_sanitized() ? 3 : 2) * proven, arcs) << "most arcs are met";
 }
 
 // ---- Laws
@@ -453,7 +453,7 @@ TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corne
     whole += count_arcs(arcs_of(scene.flats));
   }
   EXPECT_GT(arcs, least(100u));
-  EXPECT_GT(whole, arcs + 100);
+  EXPECT_GT(whole, arcs + least(600u));
 }
 
 TEST(Scope, of_a_region_that_touches_the_set_of_eyes_only_in_its_boundary_has_no_arc) {

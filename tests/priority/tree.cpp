@@ -325,7 +325,7 @@ std::string in_words(const Traits& traits, const Priority_tree<Traits>& tree) {
   return words;
 }
 
-TEST(Priority_tree, keeps_all_laws_on_1200_degenerate_scenes_with_one_or_both_sides_cut_or_whole) {
+TEST(Priority_tree, keeps_all_laws_on_degenerate_scenes_with_one_or_both_sides_cut_or_whole) {
   Exact_laws laws;
   for (std::uint64_t k = 0; k < sample(1200u); ++k) {
     const Related scene(degenerate_soup(k));
@@ -351,7 +351,7 @@ TEST(Priority_tree, keeps_all_laws_on_scenes_of_each_kind_and_cities_are_settled
       {"city", 40}, {"city_rotated", 40}, {"rooms", 1},           {"bars", 5},         {"crossing", 6}, {"lattice", 3},
       {"soup", 80}, {"terrain", 100},     {"convex_sphere", 200}, {"menger_sponge", 1}};
   for (const auto& [kind, full] : scenes) {
-    const std::size_t size = test_scenes::is_sanitized() ? std::min(full, 3 + full / 5) : full;
+    const std::size_t size = test_scenes::is_sanitized() ? std::min(full, 3 + full / 12) : full;
     const Related scene(generate::make(kind, size, 1));
     Exact_laws laws;
     for (const Priority_tree_options& options : all_options) {
@@ -368,7 +368,7 @@ TEST(Priority_tree, keeps_all_laws_on_scenes_of_each_kind_and_cities_are_settled
 
 TEST(Priority_tree, is_the_same_every_time_and_of_its_own_polygons) {
   std::size_t long_words = 0;
-  for (std::uint64_t k = 0; k < 120; ++k) {
+  for (std::uint64_t k = 0; k < 120; k += test_scenes::is_sanitized() ? 17 : 1) {
     const Related scene(k < 119 ? degenerate_soup(k) : generate::make("soup", 40, 1));
     for (const Priority_tree_options& options : all_options) {
       const std::string words = in_words(scene.traits, build_priority_tree(scene.traits, options));
@@ -392,7 +392,7 @@ TEST(Priority_tree, is_the_same_every_time_and_of_its_own_polygons) {
           << "scene " << k;
     }
   }
-  EXPECT_GT(long_words, 200u);
+  EXPECT_GT(long_words, least(200u));
 }
 
 template <class Kernel>

@@ -94,9 +94,9 @@ TEST_F(Bad_input, announced_multitudes_take_no_memory) {
   }
 }
 
-TEST_F(Bad_input, a_query_of_another_scene_or_of_a_million_brackets_is_refused) {
+TEST_F(Bad_input, a_query_of_another_scene_or_of_many_brackets_is_refused) {
   const std::string cube = (corpus / "general" / "cube.off").string();
-  const std::size_t brackets = sanitized ? 30'000 : 1'000'000;
+  const std::size_t brackets = sanitized ? 30'000 : 200'000;
   const std::string deep = std::string(brackets, '[') + std::string(brackets, ']'),
                     begin = R"({"format": "sightline query 1", "eye": )", eye = R"(["0", "0", "9"], )";
   const std::vector<std::pair<std::string, std::string>> queries{
@@ -172,8 +172,8 @@ TEST_F(Bad_input, a_scene_without_faces_or_points_is_an_empty_scene) {
   }
 }
 
-TEST_F(Bad_input, polygons_of_ten_thousand_corners_are_cut_and_ordered) {
-  const int n = sanitized ? 2'000 : 10'000;
+TEST_F(Bad_input, polygons_of_thousands_of_corners_are_cut_and_ordered) {
+  const int n = sanitized ? 2'000 : 5'000;
   // Convex: on a parabola, so exactly convex.
   std::string convex = "OFF\n" + std::to_string(n) + " 1 0\n", comb = convex, face = std::to_string(n);
   for (long i = 0; i < n; ++i) {

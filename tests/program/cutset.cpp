@@ -148,7 +148,7 @@ TEST_F(Cutset, bad_files_name_line_and_column) {
 }
 
 TEST_F(Cutset, a_long_orbit_takes_no_memory_for_its_frames) {
-  const std::size_t frames = sanitized ? 4000 : 400'000;
+  const std::size_t frames = sanitized ? 4000 : 150'000;
   const Outcome r = run({"cutset", cube, "--orbit", std::to_string(frames)}, {120, 512});
   EXPECT_EQ(r.code, done) << r;
   EXPECT_NE(r.out.find("for " + std::to_string(frames) + " frames"), std::string::npos) << r;

@@ -247,7 +247,7 @@ TEST_F(Graph, pixels_count_the_faces_left_to_choose_from) {
 }
 
 TEST_F(Graph, images_take_no_more_memory_the_more_they_are) {
-  const int images = sanitized ? 3 : 40;
+  const int images = sanitized ? 3 : 16;
   std::string eyes;
   for (int k = 0; k < images; ++k) eyes += "0,0,50,0,0,1\n";  // all look away: nothing is drawn
   const Outcome r =

@@ -228,7 +228,7 @@ TEST_F(Json_output, verify_reads_the_scene_with_the_coordinates_it_is_told) {
 
 TEST_F(Json_output, threads_change_nothing_but_seconds) {
   const std::string soup = path("soup.off").string();
-  ASSERT_EQ(run({"generate", "soup", "--size", sanitized ? "300" : "1500", "--out", soup}).code, done);
+  ASSERT_EQ(run({"generate", "soup", "--size", sanitized ? "200" : "800", "--out", soup}).code, done);
   for (const std::string& scene : {soup, cornell})
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"info", scene}, {"bsp", scene}, {"order", scene, "--eye", "1.5,-2,0.25"}}) {

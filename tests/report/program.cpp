@@ -302,8 +302,8 @@ TEST_F(Report_command, asks_programs_for_set_operations) {
 /// Each example marks the faces that are wrong, or says why it marks none.
 TEST_F(Report_command, marks_the_faces_that_are_wrong_of_each_question) {
   const Outcome r = run({"report", "--questions", "order,see,render,trace,cutset,pvs", "--quick", "--families",
-                         "leaves,boxes,exponents", "--distances", "0", "--sizes", "0", "--cases", "2", "--reduce", "10",
-                         "--keep", path("kept").string(), "--json", "-"});
+                         "leaves,boxes,exponents", "--distances", "0", "--sizes", "0", "--cases", sanitized ? "1" : "2",
+                         "--reduce", "10", "--keep", path("kept").string(), "--json", "-"});
   ASSERT_EQ(r.code, done) << r;
   const std::map<std::string, std::set<std::string>> names{
       {"order", {"nearer, or missing", "drawn over it"}},
@@ -365,9 +365,10 @@ TEST_F(Report_command, of_a_folder_passes_over_what_cannot_be_read_and_shards_ad
   EXPECT_NE(not_asked.find("torn.off:1"), std::string::npos) << not_asked;
   EXPECT_NE(not_asked.find("two_rooms.off: a solid"), std::string::npos) << not_asked;
   std::vector<std::string> merge{"report", "--json", path("merged.json").string(), "--merge"};
-  for (int k = 0; k < 8; ++k) {
+  const int shards = sanitized ? 2 : 8;
+  for (int k = 0; k < shards; ++k) {
     const std::string part = "part" + std::to_string(k) + ".json";
-    ASSERT_EQ(ask(part, {"--shard", std::to_string(k) + "/8"}).code, done);
+    ASSERT_EQ(ask(part, {"--shard", std::to_string(k) + '/' + std::to_string(shards)}).code, done);
     merge.push_back(path(part).string());
   }
   const Outcome merged = run(merge);

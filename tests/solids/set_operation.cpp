@@ -430,7 +430,7 @@ TEST(Progress, of_an_operation_goes_on_to_its_end_and_what_it_throws_ends_it_any
   const auto is_cutting = [](const auto& at) { return 3 * at.first >= at.second && 3 * at.first < 2 * at.second; };
   EXPECT_GT(std::count_if(told.begin(), told.end(), is_cutting), static_cast<long>(result.counters.fragments));
   struct Enough {};
-  for (std::size_t until = 0; until < told.size(); ++until) {
+  for (std::size_t until = 0; until < told.size(); until += test_scenes::is_sanitized() ? 9 : 1) {
     std::size_t calls = 0;
     options.progress = [&](std::size_t, std::size_t) {
       if (calls++ == until) throw Enough();
@@ -510,7 +510,7 @@ TEST(Set_operations, of_real_solids_in_pairs_with_a_plane_in_common_add_up) {
   generate::Random random(1);
   std::size_t meeting = 0, pairs = 0;
   for (std::size_t i = 0; i < scenes.size(); ++i)
-    for (std::size_t j = i; j < scenes.size(); j += test_scenes::is_sanitized() ? 20 : 3) {
+    for (std::size_t j = i; j < scenes.size(); j += test_scenes::is_sanitized() ? 40 : 6) {
       const generate::Solid_pair pair = generate::pair_on_a_plane(scenes[i].second, scenes[j].second, random);
       const std::vector<Polygon_soup> solids(pair.begin(), pair.end());
       EXPECT_TRUE(may_share_a_plane(solids)) << scenes[i].first << " and " << scenes[j].first;

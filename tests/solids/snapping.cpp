@@ -236,7 +236,7 @@ TEST(Snapping, of_doubles_too) {
 TEST(Snapping, ends_where_the_nearest_numbers_come_again_and_again) {
   // Two spheres far off, of which three faces go round in a circle of rounds unless some points are put aside.
   std::size_t most_rounds = 0;
-  for (int seed = 0; seed < test_scenes::sample(60); ++seed) {
+  for (int seed = 0; seed < test_scenes::sample(180); ++seed) {
     const Polygon_soup one = sphere(16, 9, 0), other = sphere(16, 9, 0.3 + 0.007 * seed);
     Set_options options;
     options.operation = set_operations[static_cast<std::size_t>(seed) % 4];

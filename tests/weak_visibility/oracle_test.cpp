@@ -375,6 +375,7 @@ TEST(Weak_oracles, agree_on_parallel_planes) {
     ask(scene, 0, 20, is_level ? level : projected);
   }
   if (!has_z3()) GTEST_SKIP() << "with rays only: needs z3 (Debian: z3)";
+  if (test_scenes::is_sanitized()) return;  // so few scenes may be of one kind
   for (const Tally& tally : {level, projected}) {
     EXPECT_GT(4 * tally.visible, tally.asked());
     EXPECT_GT(6 * tally.hidden, tally.asked());
@@ -389,7 +390,7 @@ class Weak_families : public testing::TestWithParam<std::size_t> {};
 TEST_P(Weak_families, have_the_truth_that_z3_and_rays_find) {
   const weak_scenes::Family& family = weak_scenes::families()[GetParam()];
   Tally tally;
-  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 2 : 6); ++seed) {
     const Weak_scene scene = family.make(seed);
     ASSERT_FALSE(scene.targets.empty()) << scene.name;
     for (std::size_t k = 0; k < std::min<std::size_t>(scene.targets.size(), 2); ++k) {
@@ -397,6 +398,7 @@ TEST_P(Weak_families, have_the_truth_that_z3_and_rays_find) {
     }
   }
   if (!has_z3()) GTEST_SKIP() << "with rays only: needs z3 (Debian: z3)";
+  if (test_scenes::is_sanitized()) return;  // two scenes may be all visible, or all hidden
   EXPECT_GT(tally.visible, 0u);
   EXPECT_GT(tally.hidden, 0u);
   EXPECT_LT(4 * tally.unknown, 3 * tally.asked());  // folded surfaces are hard
