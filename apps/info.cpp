@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/uniform.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -53,7 +54,7 @@ Fronts fronts_of(const Scene& scene, std::uint64_t seed, const Report& in_time) 
   if (!(area > 0) || !std::isfinite(area)) return fronts;
 
   std::mt19937_64 dice(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
+  const Uniform unit(0, 1);
   fronts.points = 1000;
   for (std::size_t k = 0; k < fronts.points; ++k) {
     in_time(k, fronts.points);

@@ -1,6 +1,7 @@
 #include <sightline/algorithms/baseline/ray_sampling.h>
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/kernel/uniform.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace sightline {
 std::vector<Face_id> visible_by_sampling(const Occluders& occluders, const std::vector<Weak_source>& sources,
                                          const Ray_sampling_options& options) {
   std::mt19937_64 dice(options.seed);
-  std::uniform_real_distribution<double> unit(0, 1);
+  const Uniform unit(0, 1);
   const auto length = [](const Triple& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); };
   const auto scaled = [](const Triple& a, double by) { return Triple{a[0] * by, a[1] * by, a[2] * by}; };
   std::vector<bool> seen(occluders.scene().counters().faces_read);

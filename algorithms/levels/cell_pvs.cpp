@@ -6,6 +6,7 @@
 #include <sightline/kernel/located_point.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/uniform.h>
 
 #include <algorithm>
 #include <atomic>
@@ -29,7 +30,7 @@ constexpr std::size_t least_round = 8, most_in_round = 64;
 
 /// A point of a polygon's inside, more often near corners than a mean of equal weights.
 Triple point_within(const Near_polygon& polygon, std::mt19937_64& dice) {
-  std::uniform_real_distribution<double> unit(0.02, 1);
+  const Uniform unit(0.02, 1);
   Triple p{};
   double sum = 0;
   for (const Near_point& corner : polygon) {

@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <sightline/kernel/coordinates.h>
+#include <sightline/kernel/uniform.h>
 
 #include <mpfr.h>
 
@@ -13,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <random>
 
 using namespace sightline;
 
@@ -43,6 +45,20 @@ bool is_nearest(double d, const Rational& value) {
     if (other_error == error && (std::bit_cast<std::uint64_t>(d) & 1) != 0) return false;  // a tie goes to even
   }
   return true;
+}
+
+TEST(Uniform, is_below_its_end_and_what_this_standard_library_draws) {
+  std::mt19937_64 dice(5), other(5);
+  const Uniform share(0, 1), wide(-3, 7);
+  for (int k = 0; k < 20000; ++k) {
+    const double x = k % 2 == 0 ? share(dice) : wide(dice);
+    EXPECT_GE(x, k % 2 == 0 ? 0 : -3);
+    EXPECT_LT(x, k % 2 == 0 ? 1 : 7);
+#ifdef __GLIBCXX__
+    std::uniform_real_distribution<double> theirs(k % 2 == 0 ? 0 : -3, k % 2 == 0 ? 1 : 7);
+    ASSERT_EQ(x, theirs(other)) << k;
+#endif
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/weak_visibility/search/touching_lines.h>
 #include <sightline/kernel/line_table.h>
+#include <sightline/kernel/uniform.h>
 
 #include <algorithm>
 #include <cmath>
@@ -158,11 +159,15 @@ void Line_search::weigh_candidates(std::uint32_t d) {
 }
 
 Line_weights Line_search::random_line(const Line_domain& domain, int power) {
-  std::uniform_real_distribution<double> unit(0.05, 1);
+  const Uniform unit(0.05, 1);
   Line_weights line = Line_weights::middle(domain);
   for (std::vector<double>* weights : {&line.source, &line.target}) {
     double sum = 0;
-    for (double& w : *weights) sum += w = std::pow(unit(dice_), power);
+    for (double& w : *weights) {
+      w = unit(dice_);
+      if (power != 1) w = std::pow(w, power);
+      sum += w;
+    }
     for (double& w : *weights) w /= sum;
   }
   return line;
@@ -602,7 +607,7 @@ std::optional<std::uint32_t> Line_search::confirm(const Line_domain& domain, con
       ++counters_->refuted;
     return blocker;
   }
-  std::uniform_real_distribution<double> unit(0.9, 1.1);
+  const Uniform unit(0.9, 1.1);
   constexpr std::array bits{10, 20, 40, 52, 30};
   for (std::size_t k = 0; k < bits.size(); ++k) {
     Line_weights moved = line;
