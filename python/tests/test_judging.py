@@ -27,6 +27,9 @@ def test_generate_is_what_the_program_generates():
     again = sightline.generate("hinged", seed=3, ulps=1)
     assert made.scene.points(exact=True)[0, 0] == 2 * again.scene.points(exact=True)[0, 0] + Fraction(1, 3)
     assert made.eye[1] == 2 * again.eye[1]
+    assert made.first == 0
+    pair = sightline.generate("solids_twice", seed=5)
+    assert 2 * pair.first == pair.scene.face_count
     assert "hinged" in sightline.families()
     with pytest.raises(ValueError, match="hinged"):
         sightline.generate("no such family")
