@@ -206,7 +206,7 @@ def test_fuzz_finds_what_a_law_forbids():
         visible = right(V, F, eye)
         return visible if 0 in visible else [f for f in visible if f != len(F) - 1]
 
-    report = sightline.fuzz(by_place, scenes=200, reduce=2)
+    report = sightline.fuzz(by_place, scenes=200, reduce=2, seed=2)
     assert not report.holds and report.finding.face_count <= 4 and report.finding.again.startswith("case ")
     assert "check" in report.finding.again and str(report)
     crashed = sightline.fuzz(lambda V, F, eye: 1 // 0, scenes=3, reduce=1)
