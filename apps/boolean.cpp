@@ -32,6 +32,7 @@ struct Boolean_arguments {
   std::vector<std::string> solids;
   Scene_format format;
   bool snap = false;
+  std::size_t snap_rounds = most_snap_rounds;
   int threads = 0;
   double budget = 0;  ///< seconds; 0: no limit
 
@@ -249,6 +250,7 @@ void check_usage(const Boolean_arguments& a) {
   if (!a.rounds() && (a.snap || a.round == "float"))
     throw Usage_error(std::string(a.snap ? "--snap" : "--round float") +
                       " is for rounded points: give --out a format that rounds, .obj .off .ply .stl");
+  if (!a.snap && a.snap_rounds != most_snap_rounds) throw Usage_error("--snap-rounds is for --snap");
   if (a.solids.size() < 2 && a.operation != name(Set_operation::unite))
     throw Usage_error(a.operation + " is of two solids or more: name another one; a union may be of one");
 }
@@ -295,9 +297,9 @@ Written_surface written_surface(const Boolean_arguments& a, const Set_result& re
   written.volume = volume(result.soup);
   end_if_over(limit, "before its surface was ready to be written");
   if (!a.out.empty())
-    written.rounding = write_solid(written.flat.soup, a.out, a.round == "float", a.snap, [&](std::size_t, std::size_t) {
-      end_if_over(limit, "while its points were rounded");
-    });
+    written.rounding =
+        write_solid(written.flat.soup, a.out, a.round == "float", a.snap ? a.snap_rounds : 0,
+                    [&](std::size_t, std::size_t) { end_if_over(limit, "while its points were rounded"); });
   return written;
 }
 
@@ -465,8 +467,12 @@ void add_boolean(Command program) {
       .show_default();
   command.add_flag(
       "--snap", a->snap,
-      "where rounding breaks the surface, round what it winds round again until it is a solid; thin parts vanish. "
-      "Where 40 rounds do not help, the exit code is 1");
+      "where rounding breaks the surface, round what it winds round again until it is a solid; thin parts vanish");
+  command
+      .add_option("--snap-rounds", a->snap_rounds,
+                  "how often --snap tries; where that does not help, nearest points are written and the exit code is 1")
+      .check(range(1, 1000000))
+      .show_default();
   command.add_option("--threads", a->threads, "threads; 0: one for each processor. The output does not depend on it")
       .check(range(0, 1024))
       .show_default();

@@ -2,6 +2,7 @@
 
 #include "support/common.h"
 
+#include <sightline/harness/generate/solids.h>
 #include <sightline/harness/laws/query_json.h>
 #include <sightline/io/write.h>
 
@@ -12,7 +13,7 @@ namespace sightline::app {
 namespace {
 
 struct Generate_arguments {
-  std::string family, out, query, offset = "0,0,0", scale = "1", ulps = "0";
+  std::string family, out, second, query, offset = "0,0,0", scale = "1", ulps = "0";
   std::size_t size = 0;
   std::uint64_t seed = 1;
 };
@@ -52,12 +53,21 @@ Exit run(const Generate_arguments& arguments) {
   generate::Posed_scene scene;
   try {
     const Waiting waiting("making the scene");
-    scene = generate::family(arguments.family).make(parameters);
+    const generate::Family& family = generate::family(arguments.family);
+    if (!arguments.second.empty() && !family.pair)
+      throw Usage_error("--second is for pairs of solids, and " + family.name + " is one scene");
+    scene = family.make(parameters);
   } catch (const std::invalid_argument& error) {
     throw Usage_error(error.what());
   }
   Progress progress("writing");
-  write_scene(scene.soup, arguments.out, std::ref(progress));
+  if (arguments.second.empty()) {
+    write_scene(scene.soup, arguments.out, std::ref(progress));
+  } else {
+    const generate::Solid_pair pair = generate::solids_of(scene.soup, scene.first);
+    write_scene(pair[0], arguments.out, std::ref(progress));
+    write_scene(pair[1], arguments.second, std::ref(progress));
+  }
   if (!arguments.query.empty())
     write_file(arguments.query, to_text(harness::query_json(scene, arguments.seed), 1) + "\n");
   return Exit::done;
@@ -65,17 +75,21 @@ Exit run(const Generate_arguments& arguments) {
 
 /// The lines of --help. Kinds are families too; they are listed last, each with what its size means.
 std::string list_of_families() {
-  std::string families, kinds;
+  std::string families, pairs, kinds;
   for (const generate::Family& family : generate::families()) {
     const auto& all = generate::kinds();
     const bool is_kind =
         std::any_of(all.begin(), all.end(), [&](const generate::Kind& kind) { return kind.name == family.name; });
-    if (is_kind) kinds += fmt::format("\n  {:<26} {} (size: {})", family.name, family.what, family.size_means);
+    if (family.pair) pairs += fmt::format("\n  {:<26} {}", family.name, family.what);
+    else if (is_kind) kinds += fmt::format("\n  {:<26} {} (size: {})", family.name, family.what, family.size_means);
     else families += fmt::format("\n  {:<26} {}", family.name, family.what);
   }
   return "Families of small scenes with a question (size: faces, at least; 0: as the seed has it). --ulps 0 is exactly "
          "degenerate; K leaves a gap of K ulps, -K an overlap:" +
-         families + "\nKinds of any size; --ulps K moves each coordinate by K ulps, or by none, or by -K:" + kinds;
+         families +
+         "\nPairs of solids for `boolean` (size, --ulps: as above), which meet as said; --out and --second write one "
+         "each, --out alone both as one scene, the first solid's faces first:" +
+         pairs + "\nKinds of any size; --ulps K moves each coordinate by K ulps, or by none, or by -K:" + kinds;
 }
 
 }  // namespace
@@ -95,11 +109,14 @@ void add_generate(Command program) {
   command.add_option("--scale", a->scale, "multiplies all coordinates, before --offset: a number or 2^K")
       .show_default();
   command.add_option("--out", a->out, "the file to write: .off .obj .ply .stl .qoff").required().writes_file();
+  command.add_option("--second", a->second, "of a pair, write the second solid to this file, and the first to --out")
+      .writes_file();
   command.add_option("--query", a->query, "write the eye, the source polygon and what is known of its answers, as JSON")
       .writes_file();
   command.footer(list_of_families() +
                  "\nExamples: sightline generate rooms --size 4 --out rooms.off\n          sightline generate regulus "
-                 "--seed 7 --ulps 1 --out regulus.qoff --query regulus.json");
+                 "--seed 7 --ulps 1 --out regulus.qoff --query regulus.json\n          sightline generate "
+                 "solids_vertex_on_face --out a.off --second b.off; sightline boolean union a.off b.off");
   command.set_action([a] { return run(*a); });
 }
 

@@ -38,32 +38,6 @@ double processor_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// 2 meridians (rings - 1) triangles near the unit sphere around (x, 0, 0), on a grid of 2^-20.
-Polygon_soup sphere(int meridians, int rings, double x) {
-  Polygon_soup soup;
-  const auto near = [](double value) { return std::round(value * 0x1p20) * 0x1p-20; };
-  const Point_id top = soup.add_point(near(x), 0.0, 1.0), bottom = soup.add_point(near(x), 0.0, -1.0);
-  std::vector<std::vector<Point_id>> ring;
-  for (int j = 1; j < rings; ++j) {
-    ring.emplace_back();
-    for (int i = 0; i < meridians; ++i) {
-      const double height = M_PI * j / rings, angle = 2 * M_PI * (i + 0.37 * j) / meridians;
-      ring.back().push_back(soup.add_point(near(x + std::sin(height) * std::cos(angle)),
-                                           near(std::sin(height) * std::sin(angle)), near(std::cos(height))));
-    }
-  }
-  for (int i = 0; i < meridians; ++i) {
-    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>((i + 1) % meridians);
-    soup.add_face({top, ring.front()[a], ring.front()[b]});
-    soup.add_face({bottom, ring.back()[b], ring.back()[a]});
-    for (std::size_t j = 0; j + 1 < ring.size(); ++j) {
-      soup.add_face({ring[j][a], ring[j + 1][a], ring[j + 1][b]});
-      soup.add_face({ring[j][a], ring[j + 1][b], ring[j][b]});
-    }
-  }
-  return soup;
-}
-
 Polygon_soup box(const Exact_point& low, const Exact_point& high) {
   Polygon_soup soup;
   for (std::size_t k = 0; k < 8; ++k)
@@ -312,7 +286,8 @@ int main(int argc, char** argv) {
     if (triangles > 1.01 * most) break;
     const std::string name = fmt::format("two spheres, {}", 2 * side * side);
     if (!is_asked_for(name)) continue;
-    const std::vector<Polygon_soup> solids{sphere(side, side + 1, 0), sphere(side, side + 1, 0.7)};
+    const std::vector<Polygon_soup> solids{generate::triangulated_sphere(side, side + 1, 0),
+                                           generate::triangulated_sphere(side, side + 1, 0.7)};
     print_row(name, solids, Set_operation::unite, most_certified);
     if (side != 64) continue;
     const auto print_corefinement = [&](Set_operation operation) {

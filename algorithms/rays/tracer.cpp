@@ -217,6 +217,11 @@ class Ray_tracer::Search {
     std::array<Integer, 3> origin, direction;
     Integer weight, denominator;
   };
+  /// The same where all is short: products of three numbers of Whole and a corner have less than 128 bits then.
+  struct Small {
+    std::array<std::int64_t, 3> origin, direction;
+    std::int64_t weight;
+  };
 
   /// Where the plane of a piece is met, for certain; nothing where doubles do not tell.
   struct Depth {
@@ -240,6 +245,8 @@ class Ray_tracer::Search {
   void look_at_face(Face_id face);
   /// Whether the ray's line passes all edges of a piece on one side, or touches them.
   bool passes(std::uint32_t piece);
+  template <class Product, class Number, class Place>
+  bool passes_in(std::uint32_t piece, const std::array<Number, 3>& direction, Place place) const;
   /// The part of the ray, from t = 0 on, that a piece holds.
   std::optional<Face_hit> part(std::uint32_t piece);
   std::optional<Face_hit> part_along(std::uint32_t piece, const std::array<Integer, 4>& plane);
@@ -260,6 +267,7 @@ class Ray_tracer::Search {
   std::vector<Face_id> whole_faces_;  // that look_at_face looked at
   bool begins_along_ = false;         // the ray begins in the plane of such a face, on it
   std::optional<Whole> whole_;
+  std::optional<Small> small_;  // of that
 };
 
 void Ray_tracer::Search::look() {
@@ -396,6 +404,19 @@ const Ray_tracer::Search::Whole& Ray_tracer::Search::whole() {
   }
   for (std::size_t k = 0; k < 3; ++k)
     whole_->direction[k] = direction[k].get_num() * (whole_->denominator / direction[k].get_den());
+  // In machine numbers: the direction is below 2^40, corners from the origin, times the weight, are below 2^41.
+  constexpr std::size_t most_bits = 40;
+  const Grid_points& points = scene_.points();
+  bool is_short = bit_length(whole_->weight) + static_cast<std::size_t>(points.bits()) <= most_bits;
+  for (std::size_t k = 0; k < 3; ++k)
+    is_short = is_short && bit_length(whole_->origin[k]) <= most_bits && bit_length(whole_->direction[k]) <= most_bits;
+  if (!is_short) return *whole_;
+  small_.emplace();
+  for (std::size_t k = 0; k < 3; ++k) {
+    small_->origin[k] = whole_->origin[k].get_si();
+    small_->direction[k] = whole_->direction[k].get_si();
+  }
+  small_->weight = whole_->weight.get_si();
   return *whole_;
 }
 
@@ -409,28 +430,39 @@ Rational Ray_tracer::Search::parameter(std::uint32_t piece) {
   return t;
 }
 
-bool Ray_tracer::Search::passes(std::uint32_t piece) {
-  const Whole& w = whole();
+/// place(point, k): a coordinate of a corner from the ray's origin. Products of three numbers are in Product.
+template <class Product, class Number, class Place>
+bool Ray_tracer::Search::passes_in(std::uint32_t piece, const std::array<Number, 3>& direction, Place place) const {
   const auto from_origin = [&](std::uint32_t point) {
-    std::array<Integer, 3> p;
-    for (std::size_t k = 0; k < 3; ++k)
-      p[k] = w.weight * scene_.points().integer(point, static_cast<int>(k)) - w.origin[k];
-    return p;
+    return std::array<Number, 3>{place(point, 0), place(point, 1), place(point, 2)};
   };
   const std::span<const Piece_corner> corners = scene_.corners(scene_.pieces()[piece]);
   bool left = false, right = false;
-  std::array<Integer, 3> a = from_origin(corners.back().point);
+  std::array<Number, 3> a = from_origin(corners.back().point);
   for (const Piece_corner& corner : corners) {
-    std::array<Integer, 3> b = from_origin(corner.point);
-    Integer side = 0;
+    std::array<Number, 3> b = from_origin(corner.point);
+    Product side = 0;
     for (std::size_t k = 0; k < 3; ++k)
-      side += w.direction[k] * (a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
+      side += direction[k] * (static_cast<const Product&>(a[(k + 1) % 3]) * b[(k + 2) % 3] -
+                              static_cast<const Product&>(a[(k + 2) % 3]) * b[(k + 1) % 3]);
     left = left || side > 0;
     right = right || side < 0;
     if (left && right) return false;
     a = std::move(b);
   }
   return true;
+}
+
+bool Ray_tracer::Search::passes(std::uint32_t piece) {
+  const Whole& w = whole();
+  const Grid_points& points = scene_.points();
+  if (small_)
+    return passes_in<__int128>(piece, small_->direction, [&](std::uint32_t point, int k) {
+      return small_->weight * points.small(point, k) - small_->origin[static_cast<std::size_t>(k)];
+    });
+  return passes_in<Integer>(piece, w.direction, [&](std::uint32_t point, int k) -> Integer {
+    return w.weight * points.integer(point, k) - w.origin[static_cast<std::size_t>(k)];
+  });
 }
 
 std::optional<Face_hit> Ray_tracer::Search::part(std::uint32_t piece) {

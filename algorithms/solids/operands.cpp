@@ -1,10 +1,10 @@
 #include <sightline/algorithms/solids/operands.h>
 
-#include <sightline/algorithms/solids/buckets.h>
 #include <sightline/kernel/line_table.h>
 #include <sightline/kernel/predicates.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 
@@ -24,21 +24,32 @@ void put_on_grid(const Polygon_soup& soup, Face_id f, std::size_t first_point, c
   }
 }
 
-/// A directed edge of a piece.
+/// A directed edge of a piece, kept with its lesser end.
 struct Edge_use {
-  std::uint32_t lesser, greater;  // its ends
-  std::uint32_t operand, piece;
-  bool backwards;  // from the greater to the lesser
-  bool is_of_edge(const Edge_use& other) const {
-    return lesser == other.lesser && greater == other.greater && operand == other.operand;
-  }
+  std::uint32_t greater;                       // of its two ends
+  std::uint32_t piece : 31, is_backwards : 1;  // from the greater to the lesser; corners have 32 bits, three a piece
 };
 
 /// One of an operand's edges between two points, and how many more run forwards.
 struct Edge_left {
+  std::uint32_t lesser, operand;
   Edge_use edge;
   long net;
 };
+
+/// Calls visit(lesser end, edge) for all edges of all pieces.
+template <class Visit>
+void for_each_edge(const Operands& operands, const Visit& visit) {
+  for (std::uint32_t i = 0; i < operands.pieces().size(); ++i) {
+    const std::span<const Piece_corner> corners = operands.corners(i);
+    std::uint32_t p = corners.back().point;
+    for (const Piece_corner& corner : corners) {
+      const std::uint32_t q = corner.point;
+      visit(std::min(p, q), Edge_use{std::max(p, q), i, q < p});
+      p = q;
+    }
+  }
+}
 
 }  // namespace
 
@@ -131,57 +142,55 @@ std::vector<Operand_flaw> flaws(const Operands& operands) {
     }
 
   // 2. Edges of each operand that have as many opposites as equals cancel.
-  std::vector<Edge_use> edges;
-  if (!operands.pieces().empty()) edges.reserve(operands.pieces().back().first + operands.pieces().back().size);
-  for (std::size_t i = 0; i < operands.pieces().size(); ++i) {
-    const std::span<const Piece_corner> corners = operands.corners(i);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::uint32_t p = corners[k].point, q = corners[k + 1 == corners.size() ? 0 : k + 1].point;
-      edges.push_back(
-          {std::min(p, q), std::max(p, q), operands.operand_of_piece(i), static_cast<std::uint32_t>(i), q < p});
-    }
-  }
+  std::vector<std::size_t> ends(operands.points().size() +
+                                1);  // first where a point's edges begin, then where they end
+  for_each_edge(operands, [&](std::uint32_t p, const Edge_use&) { ++ends[p + 1]; });
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<Edge_use> edges(ends.back());
+  for_each_edge(operands, [&](std::uint32_t p, const Edge_use& edge) { edges[ends[p]++] = edge; });
   std::vector<Edge_left> left;
-  const std::vector<std::size_t> first = in_order_of(edges, operands.points().size(), &Edge_use::lesser);
-  for (std::size_t p = 0; p < operands.points().size(); ++p) {
-    const std::span<Edge_use> of_point(edges.data() + first[p], edges.data() + first[p + 1]);
+  for (std::uint32_t p = 0; p < operands.points().size(); ++p) {
+    const std::span<Edge_use> of_point(edges.data() + (p == 0 ? 0 : ends[p - 1]), edges.data() + ends[p]);
     std::sort(of_point.begin(), of_point.end(), [](const Edge_use& a, const Edge_use& b) {
       return a.greater != b.greater ? a.greater < b.greater : a.piece < b.piece;
     });
     for (std::size_t i = 0, j = 0; i < of_point.size(); i = j) {
+      const std::uint32_t operand = operands.operand_of_piece(of_point[i].piece);
       long net = 0;
       const Edge_use* last[2] = {nullptr, nullptr};
-      for (j = i; j < of_point.size() && of_point[j].is_of_edge(of_point[i]); ++j) {
-        net += of_point[j].backwards ? -1 : 1;
-        last[of_point[j].backwards] = &of_point[j];
+      for (j = i; j < of_point.size() && of_point[j].greater == of_point[i].greater &&
+                  operands.operand_of_piece(of_point[j].piece) == operand;
+           ++j) {
+        net += of_point[j].is_backwards ? -1 : 1;
+        last[of_point[j].is_backwards] = &of_point[j];
       }
-      if (net != 0) left.push_back({*last[net < 0], net});
+      if (net != 0) left.push_back({p, operand, *last[net < 0], net});
     }
   }
   // 3. The others may cancel on their lines. P-08a
   std::stable_sort(left.begin(), left.end(),
-                   [](const Edge_left& a, const Edge_left& b) { return a.edge.operand < b.edge.operand; });
+                   [](const Edge_left& a, const Edge_left& b) { return a.operand < b.operand; });
   for (std::size_t begin = 0, end = 0; begin < left.size(); begin = end) {
-    const std::uint32_t operand = left[begin].edge.operand;
-    while (end < left.size() && left[end].edge.operand == operand) ++end;
+    const std::uint32_t operand = left[begin].operand;
+    while (end < left.size() && left[end].operand == operand) ++end;
     const std::span<const Edge_left> own(left.data() + begin, left.data() + end);
     Line_table lines(operands.points());
     std::unordered_map<std::uint64_t, long> jumps;  // by line and point
-    for (const auto& [edge, net] : own) {
-      const std::uint64_t line = std::uint64_t{lines.through(edge.lesser, edge.greater).id} << 32;
-      jumps[line | edge.lesser] -= net;
+    for (const auto& [lesser, of, edge, net] : own) {
+      const std::uint64_t line = std::uint64_t{lines.through(lesser, edge.greater).id} << 32;
+      jumps[line | lesser] -= net;
       jumps[line | edge.greater] += net;
     }
     std::vector<bool> open(lines.size());
     for (const auto& [place, jump] : jumps)
       if (jump != 0) open[place >> 32] = true;
-    for (const auto& [edge, net] : own) {
-      if (!open[lines.through(edge.lesser, edge.greater).id]) continue;
+    for (const auto& [lesser, of, edge, net] : own) {
+      if (!open[lines.through(lesser, edge.greater).id]) continue;
       found.push_back({operand,
                        operands.source_of(operands.pieces()[edge.piece].face).second,
                        {},
-                       operands.position(edge.backwards ? edge.greater : edge.lesser),
-                       operands.position(edge.backwards ? edge.lesser : edge.greater)});
+                       operands.position(edge.is_backwards ? edge.greater : lesser),
+                       operands.position(edge.is_backwards ? lesser : edge.greater)});
     }
   }
   std::stable_sort(found.begin(), found.end(),

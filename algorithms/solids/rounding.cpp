@@ -312,8 +312,9 @@ Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate,
   return result;
 }
 
-Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress) {
-  constexpr std::size_t most_rounds = 40, aside_every = 3;
+Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress,
+                        std::size_t most_rounds) {
+  constexpr std::size_t aside_every = 3;
   Rounded_surface first = rounded(soup, to, triangulate, progress);
   if (first.is_sound()) return first;
   // The exact surface of each round, and of its faces which one of the first's each is a part of.

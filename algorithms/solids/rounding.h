@@ -49,17 +49,20 @@ using Rounding_progress = std::function<void(std::size_t done, std::size_t total
 Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate = false,
                         const Rounding_progress& progress = {});
 
+/// Far more than any surface has taken that was tried.
+inline constexpr std::size_t most_snap_rounds = 40;
+
 /// Rounds likewise; where that is not sound, snaps, in rounds: of the rounded surface, in triangles where faces are not
 /// planar any more, the exact surface of what it winds round positively is made, whose new points, where faces crossed,
 /// are rounded in the next round, to a grid of the step that the numbers have at their greatest coordinate; every third
 /// round to one beside the nearest. Points that meet become one, and faces without two different neighbours vanish.
-/// Post: sound, or, after 40 rounds, what rounded() returns, with that number of rounds. Each point before is at its
-/// nearest numbers, or no corner any more. Off `farthest` from the surface before, along each axis, what was inside is,
-/// and nothing else. Degenerate: what is thinner than the numbers' step vanishes, all of it perhaps: no faces then.
+/// Post: sound, or, after `most_rounds`, what rounded() returns, with that number of rounds. Each point before is at
+/// its nearest numbers, or no corner any more. Off `farthest` from the surface before, along each axis, what was inside
+/// is, and nothing else. Degenerate: what is thinner than the numbers' step vanishes, all of it perhaps: no faces then.
 /// Pre, Exact, `progress`: as above. Cost: that of rounded() and of a union, of coordinates of few digits, for each
 /// round. Ref: Lazard and Valque, Removing self-intersections in 3D meshes while preserving floating-point coordinates.
 /// Proof: P-117
 Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate = false,
-                        const Rounding_progress& progress = {});
+                        const Rounding_progress& progress = {}, std::size_t most_rounds = most_snap_rounds);
 
 }  // namespace sightline

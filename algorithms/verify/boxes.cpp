@@ -43,12 +43,20 @@ void Outward_box::join(const Outward_box& other) {
 
 Boxes::Boxes(const std::vector<Outward_box>& boxes) : order_(boxes.size()) {
   std::iota(order_.begin(), order_.end(), 0);
-  if (!boxes.empty()) add(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+  std::vector<Middle> middles(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      // Halved first: their sum may be beyond the range; never not a number.
+      const double sum = boxes[i].low[k] / 2 + boxes[i].high[k] / 2;
+      middles[i][k] = std::isnan(sum) ? 0 : sum;
+    }
+  if (!boxes.empty()) add(boxes, middles, 0, static_cast<std::uint32_t>(boxes.size()));
   boxes_.reserve(boxes.size());
   for (const std::uint32_t i : order_) boxes_.push_back(boxes[i]);
 }
 
-void Boxes::add(const std::vector<Outward_box>& boxes, std::uint32_t begin, std::uint32_t end) {
+void Boxes::add(const std::vector<Outward_box>& boxes, const std::vector<Middle>& middles, std::uint32_t begin,
+                std::uint32_t end) {
   const auto at = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({{}, begin, end, at + 1});
   for (std::uint32_t i = begin; i < end; ++i) nodes_[at].box.join(boxes[order_[i]]);
@@ -62,14 +70,10 @@ void Boxes::add(const std::vector<Outward_box>& boxes, std::uint32_t begin, std:
   for (std::size_t k = 1; k < 3; ++k)
     if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
   const std::uint32_t middle = begin + (end - begin) / 2;
-  const auto key = [&](std::uint32_t i) {  // halved first: their sum may be beyond the range; never not a number
-    const double sum = boxes[i].low[axis] / 2 + boxes[i].high[axis] / 2;
-    return std::isnan(sum) ? 0 : sum;
-  };
   std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
-                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  add(boxes, begin, middle);
-  add(boxes, middle, end);
+                   [&](std::uint32_t a, std::uint32_t b) { return middles[a][axis] < middles[b][axis]; });
+  add(boxes, middles, begin, middle);
+  add(boxes, middles, middle, end);
   nodes_[at].next = static_cast<std::uint32_t>(nodes_.size());
 }
 

@@ -19,8 +19,12 @@ struct Outward_box {
   Outward_box() = default;  ///< holds nothing
   explicit Outward_box(const Polygon& points);
   bool meets(const Outward_box& other) const {
-    return !(high[0] < other.low[0] || low[0] > other.high[0] || high[1] < other.low[1] || low[1] > other.high[1] ||
-             high[2] < other.low[2] || low[2] > other.high[2]);
+    int apart = 0;  // summed up without a branch: it is hard to foresee which boxes meet
+    for (std::size_t k = 0; k < 3; ++k) {
+      apart += high[k] < other.low[k];
+      apart += low[k] > other.high[k];
+    }
+    return apart == 0;
   }
   void join(const Outward_box& other);
 };
@@ -55,7 +59,9 @@ class Boxes {
     std::uint32_t begin, end, next;
   };
 
-  void add(const std::vector<Outward_box>& boxes, std::uint32_t begin, std::uint32_t end);
+  using Middle = std::array<double, 3>;  ///< of a box
+  void add(const std::vector<Outward_box>& boxes, const std::vector<Middle>& middles, std::uint32_t begin,
+           std::uint32_t end);
 
   std::vector<std::uint32_t> order_;
   std::vector<Outward_box> boxes_;  // in that order

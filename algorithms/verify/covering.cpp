@@ -173,9 +173,10 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
   }
 
   // 2. Nothing is lost and nothing is drawn twice.
+  const auto is_known = [&](Face_id f) { return !known.empty() && known[f]; };
   std::vector<bool> is_added(soup.point_count());
   for (Face_id f = 0; f < soup.face_count(); ++f)
-    for (std::size_t k = 0; k < soup.loop_count(f); ++k)
+    for (std::size_t k = 0; k < soup.loop_count(f) && !is_known(f); ++k)
       for (const Point_id p : soup.loop(f, k)) {
         if (!is_added[p]) corners.add_point(soup.point(p));
         is_added[p] = true;
@@ -190,7 +191,7 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
   std::atomic<std::size_t> not_planar = 0;
   for_each_below(soup.face_count(), faces_worth_a_thread, workers, [&](std::size_t place) {
     const auto f = static_cast<Face_id>(place);
-    if (set_aside.count(f) || (!known.empty() && known[f])) return;
+    if (set_aside.count(f) || is_known(f)) return;
     const std::string what = name("face", f);
     const Face face(soup, f);
     not_planar += !face.planar;

@@ -4,7 +4,6 @@
 #include <limits>
 #include <map>
 #include <span>
-#include <tuple>
 #include <utility>
 
 namespace sightline::certificate_check {
@@ -25,9 +24,10 @@ std::size_t hash_of(const Exact_point& p) {
 }  // namespace
 
 std::size_t Numbered_points::place_of(const Exact_point& p, std::size_t hash) const {
-  std::size_t place = hash % table_.size();
+  const std::size_t last = table_.size() - 1;
+  std::size_t place = hash & last;
   while (table_[place] != empty && (hashes_[table_[place]] != hash || points_[table_[place]] != p))
-    place = place + 1 == table_.size() ? 0 : place + 1;
+    place = (place + 1) & last;
   return place;
 }
 
@@ -57,10 +57,11 @@ std::vector<Numbered_points::Number> Numbered_points::add(const Polygon& polygon
 }
 
 void Numbered_points::grow() {
-  table_.assign(std::max<std::size_t>(16, 4 * points_.size()), empty);
+  table_.assign(std::max<std::size_t>(16, 2 * table_.size()), empty);
+  const std::size_t last = table_.size() - 1;
   for (Number number = 0; number < points_.size(); ++number) {
-    std::size_t place = hashes_[number] % table_.size();
-    while (table_[place] != empty) place = place + 1 == table_.size() ? 0 : place + 1;
+    std::size_t place = hashes_[number] & last;
+    while (table_[place] != empty) place = (place + 1) & last;
     table_[place] = number;
   }
 }
@@ -126,8 +127,7 @@ std::optional<Exact_point> Numbered_chain::nonzero(const Numbered_points& points
                                                    const std::vector<Homogeneous>& in_integers) const {
   // 1. What is left between points.
   std::vector<Segment> sorted = segments_;
-  std::sort(sorted.begin(), sorted.end(),
-            [](const Segment& a, const Segment& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); });
+  sort_by_ends(sorted, points.size());
   std::vector<Integer_vector> directions;
   std::vector<Arrival> arrivals;
   for (std::size_t i = 0; i < sorted.size();) {

@@ -4,10 +4,14 @@
 
 #include <sightline/algorithms/verify/polygons.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sightline::certificate_check {
@@ -28,9 +32,9 @@ class Numbered_points {
   /// Where in the table it is, or would be. Pre: the table is not full.
   std::size_t place_of(const Exact_point& p, std::size_t hash) const;
 
-  std::vector<Exact_point> points_;
+  std::deque<Exact_point> points_;   // which never move: that would take memory for each
   std::vector<std::size_t> hashes_;  // of the points
-  std::vector<Number> table_;        // by hash, open; size() or more: empty
+  std::vector<Number> table_;        // by hash, open; as long as a power of two
 };
 
 /// The corners of polygons by number.
@@ -62,6 +66,25 @@ std::vector<const Value*> each_of(const std::vector<Value>& values, std::span<co
   result.reserve(numbers.size());
   for (const Numbered_points::Number number : numbers) result.push_back(&values[number]);
   return result;
+}
+
+/// Sorts what has a number `from` and one `to`, both less than `numbers`, by these; what has the same stays in order.
+/// Cost: O(n) where numbers are not many more than items, else O(n log n).
+template <class Item>
+void sort_by_ends(std::vector<Item>& items, std::size_t numbers) {
+  const auto ends = [](const Item& item) { return std::pair(item.from, item.to); };
+  if (items.size() < numbers / 4) {
+    std::stable_sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return ends(a) < ends(b); });
+    return;
+  }
+  std::vector<Item> sorted(items.size());
+  for (const auto key : {&Item::to, &Item::from}) {
+    std::vector<std::size_t> places(numbers + 1);
+    for (const Item& item : items) ++places[item.*key + 1];
+    std::partial_sum(places.begin(), places.end(), places.begin());
+    for (const Item& item : items) sorted[places[item.*key]++] = item;
+    items.swap(sorted);
+  }
 }
 
 /// A sum of directed segments between numbered points as a chain: two sums are the same chain iff on each line, at each

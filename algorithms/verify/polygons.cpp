@@ -44,14 +44,13 @@ bool is_zero(const Integer_vector& a) { return sgn(a[0]) == 0 && sgn(a[1]) == 0 
 
 Integer_vector negated(const Integer_vector& a) { return {Integer(-a[0]), Integer(-a[1]), Integer(-a[2])}; }
 
-Integer_vector primitive(const Integer_vector& v) {
+Integer_vector primitive(Integer_vector v) {
   thread_local Integer divisor;
   mpz_gcd(divisor.get_mpz_t(), v[0].get_mpz_t(), v[1].get_mpz_t());
   if (divisor != 1) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), v[2].get_mpz_t());
   if (sgn(divisor) == 0 || divisor == 1) return v;
-  Integer_vector result;
-  for (std::size_t k = 0; k < 3; ++k) mpz_divexact(result[k].get_mpz_t(), v[k].get_mpz_t(), divisor.get_mpz_t());
-  return result;
+  for (Integer& n : v) mpz_divexact(n.get_mpz_t(), n.get_mpz_t(), divisor.get_mpz_t());
+  return v;
 }
 
 Integer_vector primitive(const Exact_point& v) {

@@ -36,7 +36,7 @@ bool is_zero(const Integer_vector& a);
 Integer_vector negated(const Integer_vector& a);
 
 /// The coprime integer vector that is a positive multiple of v; zero for zero.
-Integer_vector primitive(const Integer_vector& v);
+Integer_vector primitive(Integer_vector v);
 Integer_vector primitive(const Exact_point& v);
 
 /// The direction of Newell's normal: the loop runs counterclockwise around it. Zero where the signed areas cancel.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -53,8 +54,8 @@ Integer_vector normal_of(const std::vector<const Solid_point*>& corners) {
   if (corners.size() < 3) return {};
   const Integer_vector first = minus(corners[1]->exact, corners[0]->exact);
   for (std::size_t i = 2; i < corners.size(); ++i)
-    if (const Integer_vector normal = cross(first, minus(corners[i]->exact, corners[0]->exact)); !is_zero(normal))
-      return primitive(normal);
+    if (Integer_vector normal = cross(first, minus(corners[i]->exact, corners[0]->exact)); !is_zero(normal))
+      return primitive(std::move(normal));
   return {};
 }
 
@@ -72,6 +73,20 @@ Polygon points_of(const std::vector<const Solid_point*>& corners) {
 
 Near_point near_cross(const Near_point& a, const Near_point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The scalar product, by fewer steps than of three products.
+Near near_dot(const Near_point& a, const Near_point& b) {
+  Near sum;
+  double size = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double term = a[k].value * b[k].value;
+    sum.value += term;
+    size += std::fabs(term);
+    sum.error += std::fabs(a[k].value) * b[k].error + a[k].error * (std::fabs(b[k].value) + b[k].error);
+  }
+  sum.error = (sum.error + size * (4 * Near::rounding) + Near::of_underflow) * Near::of_errors;
+  return sum;
 }
 
 Near_point difference(const Near_point& a, const Near_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -98,29 +113,71 @@ int turn_along(const Near_point& p, const Near_point& q, const Near_point& r, st
   return near_turn(p, q, r, axis).sign();
 }
 
-Solid_face::Solid_face(std::vector<Number> of, const std::vector<Solid_point>& points)
-    : numbers(std::move(of)), plane{}, normal{} {
-  for (const Number number : numbers) corners.push_back(&points[number]);
-  const Integer_vector across = normal_of(corners);
-  if (is_zero(across)) return;
-  // across . x = across . p / w, in lowest terms, as `across` is.
+namespace {
+
+/// The plane of the first three of a polygon's corners, canonical, where machine numbers suffice: they are on one grid,
+/// and near each other beside its step. Nothing is said where they do not, nor of corners on one line.
+std::optional<Homogeneous> small_plane(const std::vector<const Solid_point*>& corners) {
+  constexpr long near = 1L << 30;  // products of differences, and differences of these, are below 2^61
+  if (corners.size() < 3) return std::nullopt;
   const Homogeneous& p = corners[0]->exact;
-  plane[3] = -dot(across, Integer_vector{p[0], p[1], p[2]});
+  for (const Integer& n : p)
+    if (!n.fits_slong_p()) return std::nullopt;
+  std::array<std::array<long, 3>, 2> arms{};
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Integer& n = corners[i + 1]->exact[k];
+      if (!n.fits_slong_p() || (k == 3 && n != p[3])) return std::nullopt;
+      if (k == 3) continue;
+      const __int128 arm = __int128{n.get_si()} - p[k].get_si();
+      if (arm <= -near || arm >= near) return std::nullopt;
+      arms[i][k] = static_cast<long>(arm);
+    }
+  std::array<long, 3> normal = cross(arms[0], arms[1]);
+  const long divisor = std::gcd(std::gcd(normal[0], normal[1]), normal[2]);
+  if (divisor == 0) return std::nullopt;
+  // normal . x = normal . p / w, in lowest terms once `normal` is.
+  __int128 offset = 0;
+  for (std::size_t k = 0; k < 3; ++k) offset -= __int128{normal[k] /= divisor} * p[k].get_si();
+  const long w = p[3].get_si(), common = std::gcd(static_cast<long>(offset % w), w);
+  offset /= common;
+  if (offset != static_cast<long>(offset)) return std::nullopt;
+  Homogeneous plane{normal[0], normal[1], normal[2], static_cast<long>(offset)};
+  for (std::size_t k = 0; k < 3; ++k) plane[k] *= w / common;
+  return plane;
+}
+
+/// The same of any corners, from the first one that is not straight; zero where there is none.
+Homogeneous plane_of_corners(const std::vector<const Solid_point*>& corners) {
+  if (auto plane = small_plane(corners)) return *std::move(plane);
+  Homogeneous plane;
+  Integer_vector across = normal_of(corners);
+  if (is_zero(across)) return plane;
+  const Homogeneous& p = corners[0]->exact;
+  for (std::size_t k = 0; k < 3; ++k) mpz_submul(plane[3].get_mpz_t(), across[k].get_mpz_t(), p[k].get_mpz_t());
   Integer common = gcd(plane[3], p[3]);
   plane[3] /= common;
   common = p[3] / common;
   for (std::size_t k = 0; k < 3; ++k) plane[k] = across[k] * common;
+  return plane;
+}
+
+}  // namespace
+
+Solid_face::Solid_face(std::vector<Number> of, const std::vector<Solid_point>& points)
+    : numbers(std::move(of)), normal{} {
+  corners.reserve(numbers.size());
+  for (const Number number : numbers) corners.push_back(&points[number]);
+  plane = plane_of_corners(corners);
   for (std::size_t k = 1; k < 3; ++k)
     if (mpz_cmpabs(plane[k].get_mpz_t(), plane[axis].get_mpz_t()) > 0) axis = k;
+  if (!has_plane()) return;
   const std::size_t size = corners.size();
   const Near_point& origin = corners[0]->near;
   normal = near_cross(difference(corners[size / 3]->near, origin), difference(corners[2 * size / 3]->near, origin));
 }
 
-Near Solid_face::height(const Near_point& p) const {
-  const Near_point arm = difference(p, corners[0]->near);
-  return normal[0] * arm[0] + normal[1] * arm[1] + normal[2] * arm[2];
-}
+Near Solid_face::height(const Near_point& p) const { return near_dot(normal, difference(p, corners[0]->near)); }
 
 int Solid_face::side(const Solid_point& p) const {
   const int near = height(p.near).sign();
@@ -173,14 +230,19 @@ bool is_less(const Homogeneous& p, const Homogeneous& q) {
   return false;
 }
 
+bool has_corner(const Solid_face& face, Solid_face::Number number) {
+  return std::find(face.numbers.begin(), face.numbers.end(), number) != face.numbers.end();
+}
 /// Whether a corner of another face is known to be on the plane, as it is a corner of a face there.
 bool is_known_on(const Solid_face& plane_of, const Solid_face& face, std::size_t corner) {
-  const auto &own = plane_of.numbers, &planes = face.corners[corner]->planes;
-  return std::find(planes.begin(), planes.end(), plane_of.plane_number) != planes.end() ||
-         std::find(own.begin(), own.end(), face.numbers[corner]) != own.end();
+  const auto& planes = face.corners[corner]->planes;
+  return has_corner(plane_of, face.numbers[corner]) ||
+         std::find(planes.begin(), planes.end(), plane_of.plane_number) != planes.end();
 }
 int side_of(const Solid_face& plane_of, const Solid_face& face, std::size_t corner) {
-  return is_known_on(plane_of, face, corner) ? 0 : plane_of.side(*face.corners[corner]);
+  if (has_corner(plane_of, face.numbers[corner])) return 0;
+  const int near = plane_of.side(face.corners[corner]->near);
+  return near != 0 || is_known_on(plane_of, face, corner) ? near : plane_of.side(*face.corners[corner]);
 }
 
 /// How the corners of one face are to the plane of another.

@@ -79,6 +79,9 @@ class Solid_check {
       : operands_(operands),
         claim_(claim),
         options_(options),
+        operation_(claim.operation.empty() ? ' ' : claim.operation[0]),
+        is_positive_(claim.inside == "positive"),
+        is_nonzero_(claim.inside == "nonzero"),
         workers_(options, claim.fragments.size()),
         touched_(claim.fragments.size()) {}
 
@@ -116,22 +119,22 @@ class Solid_check {
       reject("the operation is none of union, intersection, difference and symmetric-difference");
     if (claim_.inside != "positive" && claim_.inside != "nonzero" && claim_.inside != "odd")
       reject("inside is none of positive, nonzero and odd");
-    const auto in_operands = [&](const std::string& what, std::uint32_t operand) {
-      if (operand >= operands_.size()) reject(what + " names solid " + std::to_string(operand));
+    const auto in_operands = [&](const char* what, std::size_t i, std::uint32_t operand) {
+      if (operand >= operands_.size()) reject(name(what, i) + " names solid " + std::to_string(operand));
     };
     for (std::size_t i = 0; i < claim_.fragments.size(); ++i) {
       const Solid_certificate::Fragment& fragment = claim_.fragments[i];
       if (fragment.parts.empty()) reject(name("fragment", i) + " is of no face", {i});
       if (fragment.parts[0].turned) reject(name("fragment", i) + " is turned against its first face", {i});
-      for (const auto& part : fragment.parts) in_operands(name("fragment", i), part.operand);
+      for (const auto& part : fragment.parts) in_operands("fragment", i, part.operand);
       for (std::size_t k = 0; k < fragment.front.size(); ++k) {
-        in_operands(name("fragment", i), fragment.front[k].first);
+        in_operands("fragment", i, fragment.front[k].first);
         if (fragment.front[k].second == 0 || (k > 0 && fragment.front[k].first <= fragment.front[k - 1].first))
           reject(name("fragment", i) + " has winding numbers that are 0 or out of order", {i});
       }
     }
-    for (std::size_t i = 0; i < claim_.pieces.size(); ++i) in_operands(name("piece", i), claim_.pieces[i].operand);
-    for (const auto& entry : claim_.set_aside) in_operands("set_aside", entry.operand);
+    for (std::size_t i = 0; i < claim_.pieces.size(); ++i) in_operands("piece", i, claim_.pieces[i].operand);
+    for (std::size_t i = 0; i < claim_.set_aside.size(); ++i) in_operands("set_aside", i, claim_.set_aside[i].operand);
   }
 
   /// All points by number: first those of fragments, which are made ready, then those of operands and of the result.
@@ -144,7 +147,9 @@ class Solid_check {
         if (!canonical(points_[static_cast<Number>(k)]))
           reject(name("fragment", i) + " has a vertex that is not in canonical numbers", {i});
     }
+    near_.reserve(points_.size());
     for (Number k = 0; k < points_.size(); ++k) near_.emplace_back(points_[k]);
+    faces_.reserve(numbers.size());
     for (std::vector<Number>& corners : numbers) {
       workers_.ask();
       faces_.emplace_back(std::move(corners), near_);
@@ -228,10 +233,11 @@ class Solid_check {
     for (const auto& entry : covering.set_aside)
       if (entry.face < times.size()) times[entry.face] = 0;
     std::vector<bool> whole(soup.face_count());
+    std::vector<Number> loop;
     for (const auto& [i, part] : parts) {
       if (part->face >= times.size() || times[part->face] != 1 || !faces_[i].has_plane()) continue;
       if (soup.loop_count(part->face) != 1 || soup.loop(part->face).size() != 3) continue;
-      std::vector<Number> loop;
+      loop.clear();
       for (const Point_id p : soup.loop(part->face))
         if (p < soup.point_count()) loop.push_back(operand_numbers_[operand][p]);
       if (part->turned) std::reverse(loop.begin(), loop.end());
@@ -242,6 +248,7 @@ class Solid_check {
 
   /// Planes by number, and for each point those of the fragments that it is a corner of. Pre: fragments are planar.
   void number_planes() {
+    constexpr std::size_t usual_planes = 8;                         // of a point
     std::unordered_multimap<std::size_t, const Solid_face*> known;  // by digits
     std::uint32_t count = 0;
     for (Solid_face& face : faces_) {
@@ -257,14 +264,17 @@ class Solid_check {
       if (same == end) known.emplace(digits, &face);
       for (const Number corner : face.numbers) {
         std::vector<std::uint32_t>& planes = near_[corner].planes;
+        if (planes.empty()) planes.reserve(usual_planes);
         if (std::find(planes.begin(), planes.end(), face.plane_number) == planes.end())
           planes.push_back(face.plane_number);
       }
     }
   }
 
-  /// Whether two fragments are known to be of one tiling, so that they have no area in common.
+  /// Whether two fragments are known to be of one tiling, so that they have no area in common. Pre: planes are
+  /// numbered.
   bool are_tiles_of_one(std::size_t i, std::size_t j) const {
+    if (faces_[i].plane_number != faces_[j].plane_number) return false;
     const Solid_certificate::Part &a = claim_.fragments[i].parts[0], &b = claim_.fragments[j].parts[0];
     return a.operand == b.operand && a.face == b.face && a.piece == b.piece;
   }
@@ -287,7 +297,7 @@ class Solid_check {
   /// share nothing but whole edges and single points with any.
   Patches patches() const {
     struct Edge {
-      Number low, high;
+      Number from, to;
       std::uint32_t fragment;
       bool upwards;
     };
@@ -299,12 +309,10 @@ class Solid_check {
         from = to;
       }
     }
-    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.low, a.high, a.fragment) < std::tie(b.low, b.high, b.fragment);
-    });
+    sort_by_ends(edges, points_.size());
     Patches patches(faces_.size());
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-      while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) ++end;
+      while (end < edges.size() && edges[end].from == edges[begin].from && edges[end].to == edges[begin].to) ++end;
       const Edge &one = edges[begin], &other = edges[end - 1];
       if (end - begin == 2 && one.upwards != other.upwards && !touched_[one.fragment] && !touched_[other.fragment])
         patches.join(one.fragment, other.fragment);
@@ -463,16 +471,17 @@ class Solid_check {
   bool is_in_result(const Numbers& numbers) const {
     std::size_t inside = 0;
     bool first = false;
-    const bool is_positive = claim_.inside == "positive", is_nonzero = claim_.inside == "nonzero";
     for (const auto& [operand, number] : numbers) {
-      const bool is_inside = is_positive ? number > 0 : is_nonzero ? number != 0 : number % 2 != 0;
+      const bool is_inside = is_positive_ ? number > 0 : is_nonzero_ ? number != 0 : number % 2 != 0;
       inside += is_inside;
       first |= is_inside && operand == 0;
     }
-    if (claim_.operation == "union") return inside > 0;
-    if (claim_.operation == "intersection") return inside == operands_.size();
-    if (claim_.operation == "difference") return first && inside == 1;
-    return inside % 2 == 1;
+    switch (operation_) {
+      case 'u': return inside > 0;
+      case 'i': return inside == operands_.size();
+      case 'd': return first && inside == 1;
+      default: return inside % 2 == 1;
+    }
   }
 
   /// Before each fragment the solids wind round as it says, and its fate follows from that.
@@ -532,28 +541,31 @@ class Solid_check {
   /// In each plane, and from each side of it, the result's faces and what is kept are the same chain.
   void check_result(const Polygon_soup& result) const {
     // 1. Faces that are a fragment, corner by corner, are what is kept of that.
-    std::map<std::vector<Number>, std::vector<std::size_t>> kept;  // by loops that begin with their least number
-    const auto from_least = [](std::vector<Number> loop) {
-      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-      return loop;
+    std::vector<std::pair<Number, std::size_t>> kept;  // by least number
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      if (times(i) != 0) kept.emplace_back(*std::min_element(faces_[i].numbers.begin(), faces_[i].numbers.end()), i);
+    std::sort(kept.begin(), kept.end());
+    std::vector<bool> is_found(faces_.size());
+    std::vector<Number> reversed;
+    const auto is_kept = [&](const std::vector<Number>& loop) {
+      reversed.assign(loop.rbegin(), loop.rend());
+      const Number least = *std::min_element(loop.begin(), loop.end());
+      for (auto at = std::lower_bound(kept.begin(), kept.end(), std::pair(least, std::size_t{0}));
+           at != kept.end() && at->first == least; ++at) {
+        const std::size_t i = at->second;
+        if (is_found[i] || !is_rotation(times(i) > 0 ? loop : reversed, faces_[i].numbers)) continue;
+        is_found[i] = true;
+        return true;
+      }
+      return false;
     };
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      if (times(i) == 0) continue;
-      std::vector<Number> loop = faces_[i].numbers;
-      if (times(i) < 0) std::reverse(loop.begin(), loop.end());
-      kept[from_least(std::move(loop))].push_back(i);
-    }
     // 2. The others are, plane by plane, what is left.
     std::map<Homogeneous, Numbered_chain> planes;
     for (Face_id f = 0; f < result.face_count(); ++f) {
       std::vector<std::vector<Number>> loops(result.loop_count(f));
       for (std::size_t k = 0; k < loops.size(); ++k)
         for (const Point_id p : result.loop(f, k)) loops[k].push_back(result_numbers_.at(p));
-      if (loops.size() == 1 && !loops[0].empty())
-        if (const auto same = kept.find(from_least(loops[0])); same != kept.end() && !same->second.empty()) {
-          same->second.pop_back();
-          continue;
-        }
+      if (loops.size() == 1 && !loops[0].empty() && is_kept(loops[0])) continue;
       Polygon outer;
       for (const Number p : loops[0]) outer.push_back(points_[p]);
       const Integer_vector normal = newell_normal(outer);
@@ -567,13 +579,13 @@ class Solid_check {
         reject(name("face", f) + " of the result crosses itself, or winds round some of it otherwise than once");
       for (const std::vector<Number>& loop : loops) planes[plane].add(loop, 1);
     }
-    for (const auto& [loop, same] : kept)
-      for (const std::size_t i : same) {
-        Homogeneous plane = faces_[i].plane;
-        if (times(i) < 0)
-          for (Integer& n : plane) n = -n;
-        planes[plane].add(loop, -1);
-      }
+    for (const auto& [least, i] : kept) {
+      if (is_found[i]) continue;
+      Homogeneous plane = faces_[i].plane;
+      if (times(i) < 0)
+        for (Integer& n : plane) n = -n;
+      planes[plane].add(faces_[i].numbers, -times(i));
+    }
     for (const auto& [plane, chain] : planes)
       if (const auto point = chain.nonzero(points_)) reject("the result is not what is kept, near " + name(*point));
   }
@@ -581,6 +593,8 @@ class Solid_check {
   std::span<const Polygon_soup> operands_;
   const Solid_certificate& claim_;
   const Verify_options& options_;
+  const char operation_;  // its name's first letter
+  const bool is_positive_, is_nonzero_;
   const Workers workers_;
   Numbered_points points_;
   std::vector<Solid_point> near_;  // of the fragments' corners

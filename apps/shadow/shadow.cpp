@@ -125,7 +125,7 @@ Told_volume write_volume(const Shadow_arguments& arguments, const Scene& scene, 
   });
   progress.clear();
   const Polygon_soup flat = without_holes(made.soup).soup;
-  const auto rounding = write_solid(flat, arguments.volume, false, true);
+  const auto rounding = write_solid(flat, arguments.volume, false, most_snap_rounds);
   const Rational size = volume(made.soup);
   Told_volume told;
   told.json = {{"faces", flat.face_count()},

@@ -27,8 +27,8 @@ Check solid_ending() {
   });
 }
 
-std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap,
-                                           const Rounding_progress& progress) {
+std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float,
+                                           std::size_t snap_rounds, const Rounding_progress& progress) {
   const std::optional<Format> format = format_of_ending(out);
   if (format == Format::qoff) {
     write_scene(soup, out);
@@ -42,7 +42,8 @@ std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::
     }
   const Rounding to = to_float ? Rounding::to_float : Rounding::to_double;
   try {
-    Rounded_surface near = snap ? snapped(soup, to, triangles, progress) : rounded(soup, to, triangles, progress);
+    Rounded_surface near =
+        snap_rounds > 0 ? snapped(soup, to, triangles, progress, snap_rounds) : rounded(soup, to, triangles, progress);
     write_scene(near.soup, out);
     return near;
   } catch (const std::domain_error&) {

@@ -14,11 +14,11 @@ namespace sightline::app {
 /// The name of a file that write_solid can write.
 Check solid_ending();
 
-/// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, or snapped, which is
-/// returned. Pre: no holes. Errors: as write_scene. `progress` is told of rounding; what it throws comes before
-/// anything is written.
-std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap,
-                                           const Rounding_progress& progress = {});
+/// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, or snapped in so
+/// many rounds at most, which is returned. Pre: no holes. Errors: as write_scene. `progress` is told of rounding; what
+/// it throws comes before anything is written.
+std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float,
+                                           std::size_t snap_rounds, const Rounding_progress& progress = {});
 
 /// Of a .qoff of a surface whose common denominator is too long for commands: that, and how they read it; the one that
 /// reads it as it is, if there is one, by its name. Else empty.

@@ -3,7 +3,9 @@
 #include <sightline/harness/generate/exponents.h>
 #include <sightline/harness/generate/gap_drafts.h>
 #include <sightline/harness/generate/projective.h>
+#include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/tangles.h>
+#include <sightline/harness/generate/touching_solids.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/generate/twisted_holes.h>
 #include <sightline/harness/generate/weak_draft.h>
@@ -108,6 +110,23 @@ Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Family_para
   return scene;
 }
 
+Posed_scene of_two_solids(const touching_solids::Drafter& drafter, const Family_parameters& parameters,
+                          Random& random) {
+  require(parameters.size <= 1000000, "at most 10^6 faces");
+  Solid_pair pair = drafter.draft(random, ulps_of_size(parameters.ulps, touching_solids::bits));
+  touching_solids::enlarge(pair, parameters.size);
+  Posed_scene scene;
+  scene.soup = joined(pair);
+  scene.first = pair[0].face_count();
+  Faces faces;
+  for (Face_id f = 0; f < scene.soup.face_count(); ++f) {
+    faces.emplace_back();
+    for (const Point_id p : scene.soup.loop(f)) faces.back().push_back(scene.soup.point(p));
+  }
+  scene.eye = view_drafts::some_eye(faces, random);
+  return scene;
+}
+
 Posed_scene of_a_kind(const Kind& kind, const Family_parameters& parameters, Random& random) {
   Posed_scene scene;
   scene.soup = kind.make(parameters.size == 0 ? kind.example_size : parameters.size, parameters.seed);
@@ -139,11 +158,11 @@ Posed_scene of_a_kind(const Kind& kind, const Family_parameters& parameters, Ran
 const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> list;
-    // Each family has random numbers of its own: seed 64 s + number.
+    // Each family has random numbers of its own: seed 64 s + number; beyond 63, those of the next s of another family.
     const auto add = [&](const std::string& name, const std::string& what, const std::string& size_means,
                          std::size_t small_size, std::uint64_t number, auto make) {
       list.push_back(
-          {name, what, size_means, small_size, false, [name, number, make](const Family_parameters& parameters) {
+          {name, what, size_means, small_size, false, false, [name, number, make](const Family_parameters& parameters) {
              Random random(parameters.seed * 64 + number);
              Posed_scene scene = make(parameters, random);
              scene.name = name + ' ' + std::to_string(parameters.seed);
@@ -188,6 +207,13 @@ const std::vector<Family>& families() {
           scene.source = std::move(made.source);
           return scene;
         });
+    for (std::size_t k = 0; k < touching_solids::drafters.size(); ++k) {
+      add(touching_solids::drafters[k].name, touching_solids::drafters[k].what, faces, 0, 64 + k,
+          [k](const Family_parameters& parameters, Random& random) {
+            return of_two_solids(touching_solids::drafters[k], parameters, random);
+          });
+      list.back().pair = true;
+    }
     for (std::size_t k = 0; k < kinds().size(); ++k) {
       const Kind& kind = kinds()[k];
       add(std::string(kind.name), std::string(kind.what), std::string(kind.size_means), kind.small_size, 42 + k,

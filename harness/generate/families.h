@@ -20,6 +20,10 @@
 
 namespace sightline::generate {
 
+namespace touching_solids {
+struct Drafter;
+}
+
 /// How far from its degeneracy a scene is.
 enum class Distance { exact, beside, far };
 inline constexpr std::array<Distance, 3> distances{Distance::exact, Distance::beside, Distance::far};
@@ -44,7 +48,8 @@ struct Posed_scene {
   std::string name;  ///< family and seed
   Polygon_soup soup;
   Exact_point eye{0, 0, 0};
-  Points source;  ///< strictly convex, counterclockwise seen from the side it looks to; empty: none
+  Points source;          ///< strictly convex, counterclockwise seen from the side it looks to; empty: none
+  std::size_t first = 0;  ///< of a pair of solids, so many faces are the first one's, all others the second's
   std::vector<Face_id> visible, hidden;  ///< from the source, by construction; of other faces nothing is known
   Distance distance = Distance::exact;
 };
@@ -54,6 +59,7 @@ struct Family {
   std::string size_means;  ///< what `size` counts
   std::size_t small_size;  ///< what `size` is where many small scenes are wanted
   bool holes;              ///< whether faces have holes, which no file format can hold
+  bool pair;               ///< whether it is two solids, operands of set operations
   /// The same parameters give the same scene on every machine.
   std::function<Posed_scene(const Family_parameters&)> make;
 };
@@ -93,14 +99,18 @@ Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& rand
 /// lattice, aside.
 Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Family_parameters& parameters, Random& random);
 
+/// Two solids that meet as the drafter says, with some eye. More faces than there are: of tetrahedra aside, the second
+/// solid's.
+Posed_scene of_two_solids(const touching_solids::Drafter& drafter, const Family_parameters& parameters, Random& random);
+
 /// A scene of a kind, with an eye anywhere about it: at a corner, beyond one, in the middle, outside. Beside what it
 /// is, each coordinate is moved by K ulps, or not, or by -K.
 Posed_scene of_a_kind(const Kind& kind, const Family_parameters& parameters, Random& random);
 
 // ---- The list
 
-/// All families: questions of weak visibility, scenes with an eye, tangles, and the kinds of scenes.h. Each name is
-/// there once.
+/// All families: questions of weak visibility, scenes with an eye, tangles, pairs of solids, and the kinds of scenes.h.
+/// Each name is there once.
 const std::vector<Family>& families();
 
 /// The family of that name, or std::invalid_argument that says which there are.

@@ -90,6 +90,31 @@ Polygon_soup convex_sphere(std::size_t faces, std::uint64_t seed) {
   return soup;
 }
 
+Polygon_soup triangulated_sphere(int meridians, int rings, double x) {
+  Polygon_soup soup;
+  const auto near = [](double value) { return std::round(value * 0x1p20) * 0x1p-20; };
+  const Point_id top = soup.add_point(near(x), 0.0, 1.0), bottom = soup.add_point(near(x), 0.0, -1.0);
+  std::vector<std::vector<Point_id>> ring;
+  for (int j = 1; j < rings; ++j) {
+    ring.emplace_back();
+    for (int i = 0; i < meridians; ++i) {
+      const double height = M_PI * j / rings, angle = 2 * M_PI * (i + 0.37 * j) / meridians;
+      ring.back().push_back(soup.add_point(near(x + std::sin(height) * std::cos(angle)),
+                                           near(std::sin(height) * std::sin(angle)), near(std::cos(height))));
+    }
+  }
+  for (int i = 0; i < meridians; ++i) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>((i + 1) % meridians);
+    soup.add_face({top, ring.front()[a], ring.front()[b]});
+    soup.add_face({bottom, ring.back()[b], ring.back()[a]});
+    for (std::size_t j = 0; j + 1 < ring.size(); ++j) {
+      soup.add_face({ring[j][a], ring[j + 1][a], ring[j + 1][b]});
+      soup.add_face({ring[j][a], ring[j + 1][b], ring[j][b]});
+    }
+  }
+  return soup;
+}
+
 Polygon_soup bars(std::size_t n) {
   require(n >= 3 && n <= 1000000, "bars: size must be in 3 .. 10^6");
   // A side is 2^18 / 8 or longer; a bar ends 1/8 of its side beyond the corners and is 1/8 of it wide.

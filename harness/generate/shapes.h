@@ -29,6 +29,11 @@ Lattice_point circle_point(std::uint64_t k, std::uint64_t n, std::int64_t radius
 /// faces. Exact: yes
 Polygon_soup convex_sphere(std::size_t faces, std::uint64_t seed = 0);
 
+/// Triangles near the unit sphere around (x, 0, 0), fronts outwards: two fans at its poles (x, 0, 1) and (x, 0, -1),
+/// and strips between rings, 2 meridians (rings - 1) of them. Corners are multiples of 2^-20, but depend on the
+/// machine's sine and cosine. Pre: meridians >= 3, rings >= 2.
+Polygon_soup triangulated_sphere(int meridians, int rings, double x);
+
 /// n flat bars along the sides of a convex polygon, each lying over the next at their common corner, the last over the
 /// first: seen from above a cycle of n faces, fronts up, that no order of whole faces resolves. Pre: 3 <= n <= 10^6.
 /// Post: bar k is above bar k + 1 wherever their projections along z meet, and meets no other but k - 1 and k + 1.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -126,7 +127,41 @@ Exact_point any_step(const Posed_scene& scene, Random& random) {
   return step;
 }
 
+Polygon_soup joined(std::span<const Polygon_soup, 2> solids) {
+  Polygon_soup soup;
+  for (const Polygon_soup& solid : solids) {
+    std::map<Exact_point, Point_id> there;
+    for (Face_id f = 0; f < solid.face_count(); ++f)
+      for (std::size_t k = 0; k < solid.loop_count(f); ++k) {
+        std::vector<Point_id> loop;
+        for (const Point_id p : solid.loop(f, k)) {
+          const Exact_point at = solid.point(p);
+          const auto found = there.find(at);
+          loop.push_back(found != there.end() ? found->second
+                                              : there.emplace(at, soup.add_point(at[0], at[1], at[2])).first->second);
+        }
+        if (k == 0) soup.add_face(loop);
+        else soup.add_hole(loop);
+      }
+  }
+  return soup;
+}
+
+Solid_pair solids_of(const Polygon_soup& soup, std::size_t first) {
+  Solid_pair solids;
+  for (Polygon_soup& solid : solids) solid.coordinates = soup.coordinates;
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
+      Polygon_soup& solid = solids[f < first ? 0 : 1];
+      if (k == 0) solid.add_face(soup.loop(f));
+      else solid.add_hole(soup.loop(f, k));
+    }
+  const Polygon_soup nothing;  // points in use only, as joined() leaves them
+  return {joined(std::array{solids[0], nothing}), joined(std::array{solids[1], nothing})};
+}
+
 Solid_pair pair_of_solids(const Posed_scene& scene, Random& random) {
+  if (scene.first > 0) return solids_of(scene.soup, scene.first);
   std::vector<Points> bases;
   for (Face_id f = 0; f < scene.soup.face_count(); ++f)
     if (Points base = base_of(scene.soup, f, true); !base.empty()) bases.push_back(std::move(base));

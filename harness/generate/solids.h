@@ -8,6 +8,8 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <array>
+#include <cstddef>
+#include <span>
 
 namespace sightline::generate {
 
@@ -28,8 +30,14 @@ Exact_point any_step(const Posed_scene& scene, Random& random);
 
 using Solid_pair = std::array<Polygon_soup, 2>;
 
-/// Two solids, each a cone over a planar face or a prism on one, fronts outwards: of any two faces with one apex or
-/// another, on the same face, or one a copy of the other beside it. Empty where no face serves.
+/// Both solids as one scene, each on points of its own that are there once and in use, and back: its first so many
+/// faces, and all others.
+Polygon_soup joined(std::span<const Polygon_soup, 2> solids);
+Solid_pair solids_of(const Polygon_soup& soup, std::size_t first);
+
+/// The two solids of a scene that is a pair; of another scene two, each a cone over a planar face or a prism on one,
+/// fronts outwards: of any two faces with one apex or another, on the same face, or one a copy of the other beside it.
+/// Empty where no face serves.
 Solid_pair pair_of_solids(const Posed_scene& scene, Random& random);
 
 /// A surface, and a copy of it: where it is, a few ulps away, or moved along the axes by quarters of its box, so that

@@ -181,39 +181,6 @@ std::string unmatched_edges(const Polygon_soup& soup) {
 
 }  // namespace
 
-Polygon_soup joined(std::span<const Polygon_soup, 2> solids) {
-  Polygon_soup soup;
-  for (const Polygon_soup& solid : solids) {
-    std::map<Exact_point, Point_id> there;
-    for (Face_id f = 0; f < solid.face_count(); ++f)
-      for (std::size_t k = 0; k < solid.loop_count(f); ++k) {
-        std::vector<Point_id> loop;
-        for (const Point_id p : solid.loop(f, k)) {
-          const Exact_point at = solid.point(p);
-          const auto found = there.find(at);
-          loop.push_back(found != there.end() ? found->second
-                                              : there.emplace(at, soup.add_point(at[0], at[1], at[2])).first->second);
-        }
-        if (k == 0) soup.add_face(loop);
-        else soup.add_hole(loop);
-      }
-  }
-  return soup;
-}
-
-std::array<Polygon_soup, 2> solids_of(const Polygon_soup& soup, std::size_t first) {
-  std::array<Polygon_soup, 2> solids;
-  for (Polygon_soup& solid : solids) solid.coordinates = soup.coordinates;
-  for (Face_id f = 0; f < soup.face_count(); ++f)
-    for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
-      Polygon_soup& solid = solids[f < first ? 0 : 1];
-      if (k == 0) solid.add_face(soup.loop(f));
-      else solid.add_hole(soup.loop(f, k));
-    }
-  const Polygon_soup nothing;  // points in use only, as joined() leaves them
-  return {joined(std::array{solids[0], nothing}), joined(std::array{solids[1], nothing})};
-}
-
 std::string flaw_of_solids(const Polygon_soup& soup, std::size_t first) {
   for (const Polygon_soup& solid : solids_of(soup, first)) {
     if (solid.face_count() == 0) return "a solid has no faces";

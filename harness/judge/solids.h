@@ -2,6 +2,7 @@
 // What set operations on two solids are judged against: points about every face, volume and area.
 
 #include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/harness/generate/solids.h>
 #include <sightline/harness/judge/grade.h>
 #include <sightline/harness/judge/protocol.h>
 #include <sightline/kernel/number.h>
@@ -15,9 +16,7 @@
 
 namespace sightline::judge {
 
-/// Both solids as one scene, each on points of its own that are there once and in use, and back.
-Polygon_soup joined(std::span<const Polygon_soup, 2> solids);
-std::array<Polygon_soup, 2> solids_of(const Polygon_soup& soup, std::size_t first);
+using generate::joined, generate::solids_of;
 
 /// A point off the faces of both solids, and whether the result holds it.
 struct Judged_point {

@@ -20,14 +20,16 @@ nlohmann::ordered_json query_json(const generate::Posed_scene& scene, std::uint6
   };
   nlohmann::ordered_json source = nlohmann::ordered_json::array();
   for (const Exact_point& p : scene.source) source.push_back(point_json(p));
-  return {{"format", "sightline query 1"},
-          {"name", scene.name},
-          {"seed", seed},
-          {"distance", generate::name_of(scene.distance)},
-          {"eye", point_json(scene.eye)},
-          {"source", std::move(source)},
-          {"visible", scene.visible},
-          {"hidden", scene.hidden}};
+  nlohmann::ordered_json query{{"format", "sightline query 1"},
+                               {"name", scene.name},
+                               {"seed", seed},
+                               {"distance", generate::name_of(scene.distance)},
+                               {"eye", point_json(scene.eye)},
+                               {"source", std::move(source)},
+                               {"visible", scene.visible},
+                               {"hidden", scene.hidden}};
+  if (scene.first > 0) query["first"] = scene.first;
+  return query;
 }
 
 Posed_query query_from_json(const nlohmann::json& value, std::size_t faces) {
@@ -71,6 +73,11 @@ Posed_query query_from_json(const nlohmann::json& value, std::size_t faces) {
   query.scene.eye = judge::point_from_json(*eye, "query: eye");
   if (const nlohmann::json* const source = member("source"))
     query.scene.source = judge::points_from_json(*source, "query: source");
+  if (const nlohmann::json* const first = member("first")) {
+    if (!first->is_number_unsigned() || first->get<std::uint64_t>() > faces)
+      fail("\"first\" is not how many of the scene's " + std::to_string(faces) + " faces are the first solid's");
+    query.scene.first = first->get<std::size_t>();
+  }
   query.scene.visible = list_of_faces("visible");
   query.scene.hidden = list_of_faces("hidden");
   return query;

@@ -12,7 +12,8 @@
 namespace sightline::harness {
 
 /// {"format": "sightline query 1", "name", "seed", "distance": "exact", "beside" or "far", "eye": [x, y, z], "source":
-/// [[x, y, z], ...], "visible": [faces], "hidden": [faces]}; numbers are exact strings, p or p/q; JSON numbers are read
+/// [[x, y, z], ...], "visible": [faces], "hidden": [faces]}, and of a pair of solids "first": how many faces
+/// are the first one's; numbers are exact strings, p or p/q; JSON numbers are read
 /// too, as the doubles that they are. No source: an empty list. `visible` and `hidden` are what is known by
 /// construction of what the source sees; of other faces nothing is known. `seed` is of a checker's choices.
 nlohmann::ordered_json query_json(const generate::Posed_scene& scene, std::uint64_t seed);

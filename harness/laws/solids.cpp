@@ -241,6 +241,10 @@ std::vector<Polygon_soup> prisms_through_a_point(Random& random) {
 }
 
 std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random) {
+  if (scene.first > 0) {
+    const generate::Solid_pair pair = generate::solids_of(scene.soup, scene.first);
+    return {pair.begin(), pair.end()};
+  }
   if (random.chance(1, 24)) return block_with_island(random);
   if (random.chance(1, 48)) return prisms_through_a_point(random);
   Polygon_soup folded;  // now and then, bases that are folded flat

@@ -11,9 +11,10 @@
 
 namespace sightline::harness {
 
-/// Solids of faces of a scene: cones over them, prisms on them, or copies of one another; two or three; now and then of
-/// faces that are folded flat instead, or a block with a hole in which an island touches it. Faces that cross
-/// themselves or have holes are left out. May be empty, and wound round any number of times.
+/// The two solids of a scene that is a pair. Else solids of faces of a scene: cones over them, prisms on them, or
+/// copies of one another; two or three; now and then of faces that are folded flat instead, or a block with a hole in
+/// which an island touches it. Faces that cross themselves or have holes are left out. May be empty, and wound round
+/// any number of times.
 std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random);
 
 /// What is wrong with the four set operations on some solids; empty: nothing. By points: in the result iff the

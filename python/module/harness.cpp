@@ -131,7 +131,7 @@ py::tuple posed(const std::string& name, std::uint64_t seed, std::size_t size, s
     return std::pair(std::move(made), std::move(of_soup));
   });
   return py::make_tuple(model, python::fractions(scene.eye), fractions(scene.source), ids(scene.visible),
-                        ids(scene.hidden));
+                        ids(scene.hidden), scene.first);
 }
 
 // ---- A case

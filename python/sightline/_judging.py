@@ -35,6 +35,7 @@ class Generated(NamedTuple):
     source: List[Point]  #: a convex polygon to look from; empty: none
     visible: Ids  #: from the source, by construction; of other faces nothing is known
     hidden: Ids
+    first: int = 0  #: of a pair of solids, so many faces are the first one's, all others the second's
 
 
 def families() -> Dict[str, str]:
@@ -60,8 +61,8 @@ def generate(
     <Scene: 18 faces, 72 points>
     """
     seed, size = whole_number(seed, "seed", 0, 2**64 - 1), whole_number(size, "size")
-    model, eye, source, visible, hidden = _sightline.generate(family, seed, size, _ulps(ulps), offset, scale)
-    return Generated(Scene._of(model), eye, source, visible, hidden)
+    model, eye, source, visible, hidden, first = _sightline.generate(family, seed, size, _ulps(ulps), offset, scale)
+    return Generated(Scene._of(model), eye, source, visible, hidden, first)
 
 
 # ---- What a function is asked, and what it says

@@ -95,14 +95,14 @@ commands = {
         {
             "out": "Scene.write()",
             "repair": "none is the only one",
-            **dict.fromkeys(("round", "snap"), "Scene.write() says what its format cannot hold"),
+            **dict.fromkeys(("round", "snap", "snap-rounds"), "Scene.write() says what its format cannot hold"),
         },
     ),
     "verify": (
         Scene.verify,
         {"sample": program_alone, **dict.fromkeys(("solid", "result"), "SolidCertificate.verify()")},
     ),
-    "generate": (sightline.generate, {"query": "Generated", "out": "Scene.write()"}),
+    "generate": (sightline.generate, {"query": "Generated", "out": "Scene.write()", "second": "Generated.first"}),
 }
 #: Keywords that are no options: arguments of the program, and what a terminal has anyway.
 of_python = {"self", "progress", "budget", "eye", "source", "start", "end", "certificate", "operation", "solids",

@@ -66,12 +66,18 @@ TEST(Query, that_is_written_is_the_same_when_read) {
   EXPECT_EQ(Json(written), expected);
   const Posed_query again = harness::query_from_json(Json(written), 5);
   EXPECT_EQ(harness::query_json(again.scene, again.seed), written);
+  // Of a pair of solids, where the second begins.
+  generate::Posed_scene pair = query.scene;
+  pair.first = 4;
+  EXPECT_EQ(harness::query_from_json(Json(harness::query_json(pair, 1)), 5).scene.first, 4u);
 }
 
 TEST(Query, that_is_wrong_is_refused_in_one_line_that_says_why) {
   for (const auto& [key, value, why] : std::vector<std::tuple<const char*, Json, std::string>>{
            {"format", "sightline query 2", "\"format\" is not \"sightline query 1\""},
            {"name", 3, "\"name\" is no string"},
+           {"first", 6, "\"first\" is not how many of the scene's 5 faces are the first solid's"},
+           {"first", -1, "\"first\" is not how many"},
            {"seed", -1, "\"seed\" is no whole number"},
            {"seed", 1.5, "\"seed\" is no whole number"},
            {"distance", "near", "\"distance\" is neither"},

@@ -68,6 +68,37 @@ TEST_F(Boolean, writes_exact_results_that_its_checker_reads_however_many_denomin
   EXPECT_EQ(small.out.find("8192"), std::string::npos) << small;
 }
 
+TEST_F(Boolean, takes_each_pair_of_solids_that_generate_makes) {
+  const Outcome help = run({"generate", "--help"});
+  std::size_t pairs = 0;
+  for (std::size_t at = 0; (at = help.out.find("\n  solids_", at)) != std::string::npos; ++pairs) {
+    at += 3;
+    const std::string family = help.out.substr(at, help.out.find(' ', at) - at), a = path("a.off").string(),
+                      b = path("b.off").string(), why = path("why.json").string();
+    ASSERT_EQ(run({"generate", family, "--seed", "7", "--out", a, "--second", b}).code, done) << family;
+    for (const char* operation : {"union", "intersection", "difference", "symmetric-difference"}) {
+      const Outcome made = run({"boolean", operation, a, b, "--certificate", why});
+      EXPECT_EQ(made.code, done) << made;
+      EXPECT_EQ(run({"verify", a, why, "--solid", b}).code, done) << family;
+    }
+    if (family == "solids_touching" || family == "solids_opposite_planes")
+      EXPECT_EQ(run({"boolean", "intersection", a, b, "--json", "-"}).json()["result"]["volume"], "0");
+    // As one scene, which says where the second begins.
+    const std::string both = path("both.off").string(), query = path("both.json").string();
+    ASSERT_EQ(run({"generate", family, "--seed", "7", "--out", both, "--query", query}).code, done);
+    const auto faces = [&](const std::string& file) -> std::size_t {
+      return run({"info", file, "--json", "-"}).json()["scene"]["faces_read"];
+    };
+    EXPECT_EQ(Json::parse(read_file(query))["first"], faces(a));
+    EXPECT_EQ(faces(both), faces(a) + faces(b));
+  }
+  EXPECT_GE(pairs, 9u);
+  const Outcome one = run({"generate", "boxes", "--out", path("c.off").string(), "--second", path("d.off").string()});
+  EXPECT_EQ(one.code, usage);
+  EXPECT_TRUE(one.one_line_of_error()) << one;
+  EXPECT_FALSE(fs::exists(path("c.off")));
+}
+
 TEST_F(Boolean, refuses_what_bounds_no_solid_and_names_its_edges) {
   const std::string a = box("a.off", {0, 0, 0}, {3, 3, 3}), open = box("open.off", {1, 1, 1}, {2, 2, 2}, 5);
   const Outcome r = run({"boolean", "union", a, open});
@@ -153,6 +184,18 @@ TEST_F(Boolean, snapping_mends_what_is_hardly_wider_than_the_numbers_step_and_sa
   const Json again = run({"boolean", "union", out, "--json", "-"}).json()["result"];
   const Json nonzero = run({"boolean", "union", out, "--inside", "nonzero", "--json", "-"}).json()["result"];
   EXPECT_EQ(again["volume"], nonzero["volume"]);
+  // Where it may not try so often, it says what is broken, as rounding does, and the exit code tells.
+  ASSERT_GT(rounding["rounds"], 1);
+  const std::string fewer = std::to_string(rounding["rounds"].get<std::size_t>() - 1);
+  const Outcome given_up = run_with({"--round", "float", "--snap", "--snap-rounds", fewer, "--json", "-"});
+  EXPECT_EQ(given_up.code, disagreement) << given_up;
+  Json left = given_up.json()["result"]["rounding"];
+  EXPECT_EQ(std::to_string(left["rounds"].get<std::size_t>()), fewer);
+  left["rounds"] = 0;
+  EXPECT_EQ(left, broken);
+  EXPECT_NE(
+      run_with({"--round", "float", "--snap", "--snap-rounds", fewer}).out.find("rounds of snapping did not help"),
+      std::string::npos);
   const std::string said = run_with({"--round", "float", "--snap"}).out;
   EXPECT_NE(said.find("points vanished and"), std::string::npos) << said;
   // 3. A slab that is too thin for floats vanishes, all of it, and its exact corners are listed.
@@ -184,6 +227,7 @@ TEST_F(Boolean, refuses_options_that_would_do_nothing_and_files_that_nothing_can
   EXPECT_EQ(code({"--out", exact, "--round", "float"}), usage);
   EXPECT_EQ(code({"--round", "float"}), usage);
   EXPECT_EQ(code({"--snap"}), usage);
+  EXPECT_EQ(code({"--out", path("u.off").string(), "--snap-rounds", "3"}), usage);
   for (const std::string ending : {"map", "bsp", "glb", "none"}) {
     const std::string out = path("u." + ending).string();
     EXPECT_EQ(code({"--out", out}), usage) << ending;

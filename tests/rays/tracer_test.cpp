@@ -73,6 +73,22 @@ TEST(Trace, a_face_is_met_in_its_corners_and_edges_too) {
   EXPECT_EQ(hits(soup, {{beside, half, 1}, {0, 0, -1}}), Hits{});
 }
 
+TEST(Trace, a_corner_is_met_and_a_step_beside_it_nothing_however_long_numbers_are) {
+  for (int bits = 2; bits < 70; ++bits) {
+    Polygon_soup soup;
+    const Rational side(Integer(1) << bits);
+    square(soup, {0, 0, 0}, 2, side);
+    square(soup, {1, 1, -9}, 2, 1);  // so that a step is 1
+    const Exact_point origin{3, 5, side + 7};
+    for (const int dx : {-1, 0, 1})
+      for (const int dy : {-1, 0, 1}) {
+        const Exact_ray ray{origin, {side + dx - origin[0], side + dy - origin[1], -origin[2]}};
+        const bool is_met = dx <= 0 && dy <= 0;
+        EXPECT_EQ(hits(soup, ray), is_met ? (Hits{{0, front, 1, 1}}) : Hits{}) << bits << ' ' << dx << ' ' << dy;
+      }
+  }
+}
+
 TEST(Trace, a_ray_in_a_plane_meets_faces_in_parts) {
   Polygon_soup soup;
   square(soup, {1, 0, 0}, 2, 2);  // 0 from x = 1 to 3

@@ -214,6 +214,55 @@ TEST(Checker, quotients_and_points_above_others_are_near_what_they_should_be) {
   EXPECT_FALSE(std::isfinite((Near{0x1p-100, 0} / Near{0x1p-501, 0}).error)) << "what underflow loses counts";
 }
 
+TEST(Checker, planes_and_heights_are_those_of_rationals_on_fine_and_wide_grids) {
+  std::mt19937_64 random(13);
+  const std::array<Rational, 5> steps{1, Rational(1, 3), Rational(1, 1 << 20), Rational(1, Integer(1) << 70),
+                                      Rational(Integer(1) << 40)};
+  // Corners are so far from each other, and from the origin: up to where machine numbers just suffice, and beyond.
+  const std::array<Integer, 6> spans{4, 1 << 20, (1 << 30) - 1, 1 << 30, Integer(1) << 31, Integer(1) << 64};
+  const std::array<Integer, 4> places{0, Integer(1) << 40, (Integer(1) << 62) - 7, Integer(1) << 66};
+  std::set<std::size_t> on_a_line;
+  for (int k = 0; k < test_scenes::sample(3000); ++k) {
+    const Rational& step = steps[random() % steps.size()];
+    const Integer &span = spans[random() % spans.size()], &place = places[random() % places.size()];
+    const auto any = [&] {
+      Exact_point p;
+      for (Rational& x : p) {
+        const auto share = static_cast<long>(random() % 5);  // often the whole span, or none of it
+        x = step * Rational(place + (share < 4 ? Integer(span * share / 3) : Integer(random() % 1000)));
+      }
+      return p;
+    };
+    Triangle t{any(), any(), any()};
+    if (random() % 4 == 0) t[random() % 3][random() % 3] += Rational(1, 7);  // of another denominator
+    Numbered_points points;
+    std::vector<Numbered_points::Number> numbers;
+    std::vector<Solid_point> near;
+    for (const Exact_point& p : t)
+      if (numbers.push_back(points.add(p)); points.size() > near.size()) near.emplace_back(p);
+    const Solid_face face(numbers, near);
+    const Exact_point normal = normal_of(t);
+    ASSERT_EQ(face.has_plane(), normal != Exact_point{}) << k;
+    on_a_line.insert(face.has_plane());
+    if (!face.has_plane()) continue;
+    // 1. The plane, in lowest terms, its front where it should be.
+    const Exact_point its{face.plane[0], face.plane[1], face.plane[2]};
+    for (const Exact_point& p : t) ASSERT_EQ(dot(its, p) + face.plane[3], 0) << k;
+    ASSERT_GT(dot(its, normal), 0) << k;
+    ASSERT_EQ(gcd(gcd(face.plane[0], face.plane[1]), gcd(face.plane[2], face.plane[3])), 1) << k;
+    // 2. How high a point is over it.
+    const Exact_point p = any();
+    const certificate_check::Near height = face.height(Solid_point(p).near);
+    if (!std::isfinite(height.error)) continue;
+    Rational farthest = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      for (const Exact_point& q : {t[0], t[1], t[2], p}) farthest = std::max(farthest, Rational(abs(q[c])));
+    ASSERT_LE(abs(Rational(dot(normal, minus(p, t[0])) - exact(height.value))), exact(height.error)) << k;
+    ASSERT_LE(exact(height.error) * (1L << 40), farthest * farthest * farthest) << k;
+  }
+  EXPECT_EQ(on_a_line.size(), 2u);
+}
+
 TEST(Checker, edges_that_go_on_beyond_a_straight_corner_are_more_than_a_whole_edge) {
   const std::vector<Exact_point> flat{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {0, 3, 0}},
       upright{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 2}}, beside{{0, 0, 0}, {0, -2, 0}, {2, 0, 0}, {1, 0, 0}};

@@ -64,32 +64,6 @@ Polygon_soup face_alone(const Polygon_soup& soup, Face_id face) {
   return alone;
 }
 
-/// Triangles near the unit sphere around (x, 0, 0).
-Polygon_soup sphere(int meridians, int rings, double x) {
-  Polygon_soup soup;
-  const auto near = [](double value) { return std::round(value * 0x1p20) * 0x1p-20; };
-  const Point_id top = soup.add_point(near(x), 0.0, 1.0), bottom = soup.add_point(near(x), 0.0, -1.0);
-  std::vector<std::vector<Point_id>> ring;
-  for (int j = 1; j < rings; ++j) {
-    ring.emplace_back();
-    for (int i = 0; i < meridians; ++i) {
-      const double height = M_PI * j / rings, angle = 2 * M_PI * (i + 0.37 * j) / meridians;
-      ring.back().push_back(soup.add_point(near(x + std::sin(height) * std::cos(angle)),
-                                           near(std::sin(height) * std::sin(angle)), near(std::cos(height))));
-    }
-  }
-  for (int i = 0; i < meridians; ++i) {
-    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>((i + 1) % meridians);
-    soup.add_face({top, ring.front()[a], ring.front()[b]});
-    soup.add_face({bottom, ring.back()[b], ring.back()[a]});
-    for (std::size_t j = 0; j + 1 < ring.size(); ++j) {
-      soup.add_face({ring[j][a], ring[j + 1][a], ring[j + 1][b]});
-      soup.add_face({ring[j][a], ring[j + 1][b], ring[j][b]});
-    }
-  }
-  return soup;
-}
-
 Rational exact_of_float(const Rational& x) { return exact(static_cast<double>(static_cast<float>(x.get_d()))); }
 
 void expect_solid(const Polygon_soup& surface, const std::string& name) {
@@ -237,7 +211,8 @@ TEST(Snapping, ends_where_the_nearest_numbers_come_again_and_again) {
   // Two spheres far off, of which three faces go round in a circle of rounds unless some points are put aside.
   std::size_t most_rounds = 0;
   for (int seed = 0; seed < test_scenes::sample(180); ++seed) {
-    const Polygon_soup one = sphere(16, 9, 0), other = sphere(16, 9, 0.3 + 0.007 * seed);
+    const Polygon_soup one = generate::triangulated_sphere(16, 9, 0),
+                       other = generate::triangulated_sphere(16, 9, 0.3 + 0.007 * seed);
     Set_options options;
     options.operation = set_operations[static_cast<std::size_t>(seed) % 4];
     const Set_result result = set_operation(Operands(std::vector<Polygon_soup>{one, other}), options);
@@ -247,6 +222,21 @@ TEST(Snapping, ends_where_the_nearest_numbers_come_again_and_again) {
     most_rounds = std::max(most_rounds, snap.rounds);
   }
   if (!test_scenes::is_sanitized()) EXPECT_GT(most_rounds, 6u);
+}
+
+TEST(Snapping, gives_up_after_as_many_rounds_as_it_is_allowed) {
+  const Polygon_soup exact = without_holes(united(cubes(0, 6, 1L << 20))).soup;
+  const Rounded_surface whole = snapped(exact, Rounding::to_float), near = rounded(exact, Rounding::to_float);
+  ASSERT_GT(whole.rounds, 1u);
+  const Rounded_surface given_up = snapped(exact, Rounding::to_float, false, {}, whole.rounds - 1);
+  EXPECT_FALSE(given_up.is_sound());
+  EXPECT_EQ(given_up.rounds, whole.rounds - 1);
+  EXPECT_EQ(given_up.crossing, near.crossing);
+  EXPECT_EQ(given_up.farthest, near.farthest);
+  EXPECT_TRUE(given_up.vanished.empty() && given_up.added.empty());
+  const Rounded_surface just_so = snapped(exact, Rounding::to_float, false, {}, whole.rounds);
+  EXPECT_TRUE(just_so.is_sound());
+  EXPECT_EQ(just_so.rounds, whole.rounds);
 }
 
 TEST(Snapping, what_is_thinner_than_the_step_vanishes_all_of_it_perhaps) {
