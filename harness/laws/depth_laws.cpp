@@ -330,6 +330,7 @@ std::string flaw_of_floats(Random& random) {
     const std::uint64_t of_image = depth_image(scene, pixels, options).not_finite;
     return of_image == depth_buffer(scene, eye, options).not_finite ? of_image : scene.pieces().size() + 1;
   };
+  if (left_out({}, {0, 0, 0}) != 0) return "an empty scene has something to leave out";
   if (left_out(soup, {0, 0, 0}) != soup.face_count() - 1) return "what floats do not hold is not left out, or more is";
   if (left_out(soup, {0, 0, generate::power_of_two(130)}) != soup.face_count())
     return "from an eye that floats do not hold something is drawn";
