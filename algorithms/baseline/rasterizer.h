@@ -21,7 +21,8 @@ namespace depth_buffer_detail {
 struct Corner {
   float x, y, w;
 };
-/// A corner in the image: in 256ths of a pixel, and its depth in [0, 1].
+/// A corner in the image: in 256ths of a pixel, and its depth, from 0 at the near plane to 1 at the far one and more
+/// beyond.
 struct Pixel_corner {
   std::int64_t x, y;
   float z;
@@ -99,8 +100,7 @@ void Rasterizer<Put>::draw(std::uint32_t piece, std::vector<Corner> polygon) {
       const float half = static_cast<float>(size) / 2;
       return static_cast<std::int64_t>(std::lround((v * inverse * half + half) * 256));
     };
-    corners.push_back(
-        {snapped(c.x, to_.width), snapped(c.y, to_.height), std::clamp(scale_ + shift_ * inverse, 0.0f, 1.0f)});
+    corners.push_back({snapped(c.x, to_.width), snapped(c.y, to_.height), scale_ + shift_ * inverse});
   }
   for (std::size_t k = 1; k + 1 < corners.size(); ++k) draw(piece, corners[0], corners[k], corners[k + 1]);
 }

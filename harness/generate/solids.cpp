@@ -218,4 +218,36 @@ Solid_pair pair_on_a_plane(const Polygon_soup& a, const Polygon_soup& b, Random&
           })};
 }
 
+Polygon_soup thin_tetrahedron(Random& random) {
+  const int power = static_cast<int>(random.between(0, 24));
+  const Rational far = power_of_two(power), eighth = power_of_two(power - 26);
+  const std::size_t turns = random.below(3);
+  constexpr std::array<std::array<long, 2>, 4> around{{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}};
+  for (;;) {
+    Points corners;
+    for (const auto& [x, y] : around) {
+      const Rational to_x = integer(random, -2, 2), to_y = integer(random, -2, 2), up = integer(random, 0, 15);
+      corners.push_back(axes_exchanged({x + to_x, y + to_y, far + up * eighth}, turns));
+    }
+    Polygon_soup solid = soup_of({{corners[0], corners[1], corners[2]},
+                                  {corners[0], corners[2], corners[3]},
+                                  {corners[0], corners[3], corners[1]},
+                                  {corners[1], corners[3], corners[2]}});
+    const int sign = sgn(volume(solid));
+    if (sign != 0) return sign > 0 ? solid : faces_reversed(solid);
+  }
+}
+
+Polygon_soup tetrahedron_upon_a_box(Random& random) {
+  Faces faces = box(at(-2, -2, 0), at(2, 2, 1));
+  const Rational from = integer(random, -1, 1), to = integer(random, -1, 1), height = integer(random, 2, 3);
+  const Exact_point p = at(-3, from, 1), q = at(3, to, 1), r = at(-1, 2, height), s = at(1, -2, height);
+  add(faces, {{p, r, q}, {p, q, s}, {p, s, r}, {q, r, s}});
+  const Exact_point turn = lattice(random, 3);
+  const Rational far = power_of_two(static_cast<int>(random.between(16, 20)));
+  return translated(rotated(soup_of(faces), rotation(4, turn[0].get_num().get_si(), turn[1].get_num().get_si(),
+                                                     turn[2].get_num().get_si())),
+                    {far, ratio(1, 3), far / 3});
+}
+
 }  // namespace sightline::generate

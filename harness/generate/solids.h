@@ -51,4 +51,12 @@ Solid_pair pair_of_copies(const Polygon_soup& soup, Random& random);
 /// otherwise then. Exact: yes.
 Solid_pair pair_on_a_plane(const Polygon_soup& a, const Polygon_soup& b, Random& random);
 
+/// A tetrahedron whose four corners, seen along one of the axes, are those of a convex quadrilateral, and along it are
+/// less than two steps of floats apart: rounded to floats, it may be turned inside out and no normal of it, or be flat.
+Polygon_soup thin_tetrahedron(Random& random);
+
+/// A box, and a tetrahedron that stands on an edge right across one of its faces and beyond, both turned, far from the
+/// origin: rounded to floats, the edge may go through the face.
+Polygon_soup tetrahedron_upon_a_box(Random& random);
+
 }  // namespace sightline::generate

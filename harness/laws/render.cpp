@@ -22,6 +22,7 @@
 #include <sightline/algorithms/verify/visible.h>
 #include <sightline/harness/compare/pixel_squares.h>
 #include <sightline/harness/generate/pixel_views.h>
+#include <sightline/harness/laws/depth_laws.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/window_laws.h>
@@ -479,6 +480,7 @@ Subject render() {
       check_of("few_bits", "small numbers in floats and doubles show what exact rays do", in_few_bits));
   subject.checks.push_back(check_of("squares", "a pixel's mean is that of areas in rationals", in_squares<false>));
   subject.checks.push_back(check_of("squares_layers", "so it is where faces let light through", in_squares<true>));
+  subject.checks.push_back(depth_check());
   return subject;
 }
 

@@ -42,4 +42,25 @@ int Solid_oracle::winding(const Exact_point& p, generate::Random& random) const 
   }
 }
 
+Exact_point any_point_of(const std::vector<Exact_point>& corners, generate::Random& random) {
+  const auto any = [&] { return corners[random.below(corners.size())]; };
+  const Exact_point p = any(), q = any(), r = any();
+  const Rational s = Rational(static_cast<long>(random.between(0, 8))) / 8;
+  const long parts = random.chance(1, 2) ? 1024 : 6;
+  const Rational t = Rational(static_cast<long>(random.between(-1, 4))) / parts;
+  Exact_point point;
+  for (std::size_t k = 0; k < 3; ++k) point[k] = p[k] + s * (q[k] - p[k]) + t * (r[k] - p[k]);
+  return point;
+}
+
+std::vector<Exact_point> corners_of(const Polygon_soup& soup) {
+  std::vector<Exact_point> corners;
+  for (Point_id p = 0; p < soup.point_count(); ++p) corners.push_back(soup.point(p));
+  return corners;
+}
+
+std::string text_of(const Exact_point& p) {
+  return "(" + sightline::to_string(p[0]) + ", " + sightline::to_string(p[1]) + ", " + sightline::to_string(p[2]) + ")";
+}
+
 }  // namespace sightline::harness

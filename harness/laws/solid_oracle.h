@@ -1,10 +1,11 @@
 #pragma once
-// Winding numbers by brute force, in rationals.
+// Winding numbers by brute force, in rationals, and points to ask them at.
 
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <string>
 #include <vector>
 
 namespace sightline::harness {
@@ -25,5 +26,10 @@ class Solid_oracle {
   std::vector<Flat_face> faces_;
   std::vector<Face_id> unusable_;
 };
+
+std::vector<Exact_point> corners_of(const Polygon_soup& soup);
+/// Anywhere that something may be wrong: on the way between two corners, a little beside it. Pre: there are corners.
+Exact_point any_point_of(const std::vector<Exact_point>& corners, generate::Random& random);
+std::string text_of(const Exact_point& p);
 
 }  // namespace sightline::harness

@@ -1,11 +1,8 @@
 #include <sightline/harness/laws/solids.h>
 
-#include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
-#include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
-#include <sightline/algorithms/verify/solids.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/tangles.h>
@@ -14,6 +11,8 @@
 #include <sightline/harness/laws/judge_laws.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/solid_oracle.h>
+#include <sightline/harness/laws/solid_proof.h>
+#include <sightline/harness/laws/solid_rounding.h>
 #include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
@@ -23,7 +22,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 namespace sightline::harness {
@@ -93,28 +91,6 @@ Answer labels_of(const Posed_scene& scene) {
 }
 
 // ---- Points
-
-/// Anywhere that something may be wrong: on the way between two corners, a little beside it.
-Exact_point any_point_of(const std::vector<Exact_point>& corners, Random& random) {
-  const auto any = [&] { return corners[random.below(corners.size())]; };
-  const Exact_point p = any(), q = any(), r = any();
-  const Rational s = Rational(static_cast<long>(random.between(0, 8))) / 8;
-  const long parts = random.chance(1, 2) ? 1024 : 6;
-  const Rational t = Rational(static_cast<long>(random.between(-1, 4))) / parts;
-  Exact_point point;
-  for (std::size_t k = 0; k < 3; ++k) point[k] = p[k] + s * (q[k] - p[k]) + t * (r[k] - p[k]);
-  return point;
-}
-
-std::vector<Exact_point> corners_of(const Polygon_soup& soup) {
-  std::vector<Exact_point> corners;
-  for (Point_id p = 0; p < soup.point_count(); ++p) corners.push_back(soup.point(p));
-  return corners;
-}
-
-std::string text_of(const Exact_point& p) {
-  return "(" + sightline::to_string(p[0]) + ", " + sightline::to_string(p[1]) + ", " + sightline::to_string(p[2]) + ")";
-}
 
 bool is_inside_by(Inside_rule rule, int winding) {
   if (rule == Inside_rule::positive) return winding > 0;
@@ -342,148 +318,6 @@ std::string flaw_of_surfaces(const std::vector<Polygon_soup>& solids) {
   for (std::size_t k = 0; k < 4; ++k) {
     const std::string flaw = flaw_of_surface(result_of(solids, set_operations[k]));
     if (!flaw.empty()) return std::string(operation_names[k]) + ": " + flaw;
-  }
-  return {};
-}
-
-std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random& random) {
-  Set_options options;
-  options.operation = set_operations[random.below(4)];
-  options.inside = inside_rules[random.below(3)];
-  options.keep_fragments = true;
-  const Operands operands(solids);
-  const Set_result result = set_operation(operands, options);
-  Solid_certificate claim = solid_certificate(operands, options, result);
-  Verify_options verifying;
-  verifying.threads = 1;
-  const Hole_free flat = without_holes(result.soup);
-  const Verdict verdict = verify_solids(solids, claim, &flat.soup, verifying);
-  if (!verdict.accepted) return "the certificate is rejected: " + verdict.why;
-  // Forged: another thing that would mean something else.
-  if (claim.fragments.empty()) return {};
-  const std::size_t i = random.below(claim.fragments.size());
-  Solid_certificate::Fragment& fragment = claim.fragments[i];
-  std::string how;
-  switch (random.below(8)) {
-    case 0:
-      how = "another fate";
-      fragment.fate = static_cast<Solid_certificate::Fate>((static_cast<std::size_t>(fragment.fate) + 1) % 3);
-      break;
-    case 1:
-      how = "another winding number";
-      if (fragment.front.empty()) fragment.front.emplace_back(0, 1);
-      else fragment.front.back().second += fragment.front.back().second == -1 ? 2 : 1;
-      break;
-    case 2:
-      how = "a fragment left out";
-      claim.fragments.erase(claim.fragments.begin() + static_cast<std::ptrdiff_t>(i));
-      break;
-    case 3:
-      how = "a fragment twice";
-      claim.fragments.push_back(claim.fragments[i]);
-      break;
-    case 4:
-      how = "a part left out";
-      fragment.parts.pop_back();
-      break;
-    case 5:
-      how = "a corner elsewhere";
-      fragment.vertices[random.below(fragment.vertices.size())][random.below(3)] += Rational(1, 1024);
-      break;
-    case 6:
-      how = "all of them dropped";
-      if (result.soup.face_count() == 0) return {};
-      for (Solid_certificate::Fragment& one : claim.fragments) one.fate = Solid_certificate::Fate::dropped;
-      break;
-    default: how = "turned round"; std::reverse(fragment.vertices.begin(), fragment.vertices.end());
-  }
-  if (verify_solids(solids, claim, nullptr, verifying).accepted) return "a forged certificate is accepted: " + how;
-  return {};
-}
-
-/// Of a face, of the length of twice its area.
-Exact_point normal_of(const Polygon_soup& soup, Face_id face) {
-  const auto loop = soup.loop(face);
-  Exact_point sum;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const Exact_point part =
-        cross(minus(soup.point(loop[i]), soup.point(loop[0])), minus(soup.point(loop[i + 1]), soup.point(loop[0])));
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
-  }
-  return sum;
-}
-
-/// Whether a cube around p, 2 reach wide, is seen to meet no face: by its box, or its plane.
-bool is_off(const Polygon_soup& surface, const Exact_point& p, const Rational& reach) {
-  for (Face_id f = 0; f < surface.face_count(); ++f) {
-    bool apart = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto loop = surface.loop(f);
-      const auto is_above = [&](Point_id q) { return surface.point(q)[k] > p[k] + reach; };
-      const auto is_below = [&](Point_id q) { return surface.point(q)[k] < p[k] - reach; };
-      apart =
-          apart || std::all_of(loop.begin(), loop.end(), is_above) || std::all_of(loop.begin(), loop.end(), is_below);
-    }
-    if (apart) continue;
-    const Exact_point normal = normal_of(surface, f);
-    const Rational height = abs(dot(normal, minus(p, surface.point(surface.loop(f)[0]))));
-    if (height <= reach * (abs(normal[0]) + abs(normal[1]) + abs(normal[2]))) return false;
-  }
-  return true;
-}
-
-/// Farther from a surface than rounding moved anything, what was inside is, and nothing else.
-std::string flaw_of_places(const Polygon_soup& before, const Rounded_surface& after, Random& random) {
-  const std::vector<Exact_point> corners = corners_of(before);
-  if (corners.empty()) return after.soup.face_count() == 0 ? "" : "faces come of nothing";
-  const Rational reach = exact(after.farthest);
-  const Solid_oracle then(before), now(after.soup);
-  constexpr int points = 8;
-  for (int i = 0; i < points; ++i) {
-    Exact_point p = any_point_of(corners, random);
-    const bool is_near = random.chance(1, 2);
-    if (is_near) p = corners[random.below(corners.size())];
-    for (Rational& x : p) {
-      const auto steps = static_cast<long>(random.between(-8, 8));
-      if (is_near) x += reach * steps / 3;
-    }
-    if (!is_off(before, p, reach) || then.is_on_a_face(p)) continue;
-    if (now.is_on_a_face(p)) return "the surface is at " + text_of(p) + ", farther than anything moved";
-    if (now.winding(p, random) != then.winding(p, random))
-      return text_of(p) + " is inside before or after only, farther than anything moved";
-  }
-  return {};
-}
-
-std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& random) {
-  const Set_result result = result_of(solids, set_operations[random.below(4)]);
-  const Rational far = generate::power_of_two(static_cast<int>(random.between(10, 24)));
-  const Polygon_soup exact = without_holes(generate::translated(result.soup, {far, far / 3, 0})).soup;
-  std::vector<Rounded_surface> both;
-  try {
-    both = {rounded(exact, Rounding::to_float), snapped(exact, Rounding::to_float)};
-  } catch (const std::domain_error&) {  // beyond what floats hold
-    return {};
-  }
-  for (const Rounded_surface& near : both) {
-    const std::string name = near.rounds > 0 ? "snapped: " : "rounded: ";
-    const std::vector<Polygon_soup> one{near.soup};
-    const std::vector<Operand_flaw> all = flaws(Operands(one));
-    const bool crosses_itself =  // a face; its edges are open then
-        std::any_of(all.begin(), all.end(), [](const Operand_flaw& flaw) { return !flaw.why.empty(); });
-    if (!all.empty() && (!crosses_itself || near.is_sound())) return name + "the surface is not closed any more";
-    for (Face_id f = 0; f < near.soup.face_count(); ++f) {
-      const Exact_point before = normal_of(exact, near.face_of[f]);
-      const bool is_turned = dot(normal_of(near.soup, f), before) < 0;
-      if (is_turned != (std::count(near.turned.begin(), near.turned.end(), f) > 0))
-        return name + "a face is turned over and not said to be, or the other way round";
-    }
-    if (!near.is_sound()) continue;
-    if (const std::string flaw = flaw_of_places(exact, near, random); !flaw.empty()) return name + flaw;
-    const Rational signed_volume = volume(near.soup);
-    for (const Inside_rule rule : {Inside_rule::positive, Inside_rule::nonzero})
-      if (volume(result_of(one, Set_operation::unite, rule).soup) != signed_volume)
-        return name + "said to be sound, but not wound once round what is " + sightline::name(rule);
   }
   return {};
 }

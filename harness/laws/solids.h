@@ -25,13 +25,6 @@ std::string flaw_by_points(const std::vector<Polygon_soup>& solids, std::size_t 
 std::string flaw_by_volumes(const std::vector<Polygon_soup>& solids);
 std::string flaw_of_surfaces(const std::vector<Polygon_soup>& solids);
 
-/// That the checker accepts a certificate of one of them, and rejects it once something in it is changed.
-std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random& random);
-
-/// That a result whose points are rounded to floats, far from the origin, is a closed surface still, and, where it is
-/// said to be sound, or was snapped until it was, one that winds once round its inside and nothing else.
-std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& random);
-
 /// Labels say what is left of each face's cone from the eye: its base in A less B, in B less A, in the union, in the
 /// intersection; A the cones over faces that look away from the eye, B those over others.
 Subject boolean();

@@ -93,6 +93,12 @@ TEST(Depth_buffer, interpolates_depth_in_perspective) {
   EXPECT_EQ(look(scene_of({slanted, rectangle(0, -0.1, 0.1, -0.1, 0.1, 1.5)}), 64).piece(0, 32, 32), 1u);
 }
 
+TEST(Depth_buffer, interpolates_depth_of_faces_that_go_through_the_far_plane) {
+  const Points slanted{at(4, 4, -1), at(1, -1, -1), at(1, -1, 1), at(4, 4, 1)};
+  const Scene scene = scene_of({slanted, rectangle(0, -0.1, 0.1, -0.1, 0.1, 1.55)});
+  EXPECT_EQ(look(scene, 64, 24, 0.5, 3).piece(0, 32, 32), 1u) << "the face is at distance 1.6 there";
+}
+
 TEST(Depth_buffer, cannot_tell_planes_apart_that_its_bits_do_not) {
   // At distance 1 between planes at 1/2 and 2, 10^-6 is 7 x 10^-7 of the depths: 0.04 steps of 16 bits, 11 of 24.
   const Scene scene = scene_of({rectangle(0, -0.5, 0.5, -0.5, 0.5, 1 + 1e-6), rectangle(0, -0.5, 0.5, -0.5, 0.5, 1)});

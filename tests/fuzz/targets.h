@@ -17,6 +17,7 @@
 #include "mutate.h"
 #include "other_readers.h"
 #include "pairs.h"
+#include "pictures.h"
 #include "planar_parts.h"
 #include "quadratic_roots.h"
 #include "readers.h"
@@ -73,7 +74,8 @@ inline const std::vector<Target>& targets() {
                                        {"cutset", cutset, {}},
                                        {"bsp_queries", bsp_queries, {}},
                                        {"text_numbers", text_numbers, {}},
-                                       {"cover", cover, {}}};
+                                       {"cover", cover, {}},
+                                       {"pictures", pictures, {}}};
   return all;
 }
 

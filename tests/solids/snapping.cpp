@@ -10,6 +10,7 @@
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/solid_oracle.h>
 #include <sightline/kernel/threads.h>
@@ -338,6 +339,26 @@ TEST(Snapping, a_thin_solid_that_is_turned_inside_out_is_told_though_no_normal_t
   const Rounded_surface snap = snapped(thin, Rounding::to_float);
   EXPECT_TRUE(snap.is_sound());
   expect_solid(snap.soup, "snapped");
+}
+
+TEST(Snapping, breaks_solids_that_are_made_for_it) {
+  generate::Random random(1);
+  const int count = test_scenes::sample(60);
+  int turned_inside_out = 0, through = 0;
+  for (int k = 0; k < count; ++k) {
+    const Polygon_soup thin = generate::thin_tetrahedron(random), upon = generate::tetrahedron_upon_a_box(random);
+    for (const Polygon_soup* solid : {&thin, &upon}) {
+      const Rational size = volume(*solid);
+      EXPECT_GT(size, 0) << k;
+      EXPECT_EQ(size, volume(united({*solid}))) << k;
+    }
+    const Rounded_surface of_thin = rounded(thin, Rounding::to_float);
+    EXPECT_TRUE(of_thin.turned.empty() && of_thin.collapsed.empty()) << k;
+    turned_inside_out += of_thin.misplaced.size() == 4 && volume(of_thin.soup) < 0;
+    through += !rounded(upon, Rounding::to_float).crossing.empty();
+  }
+  EXPECT_GT(turned_inside_out, test_scenes::least(3));
+  EXPECT_GT(through, test_scenes::least(10));
 }
 
 TEST(Snapping, merges_what_is_thinner_than_the_numbers_step) {

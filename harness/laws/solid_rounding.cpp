@@ -1,0 +1,300 @@
+#include <sightline/harness/laws/solid_rounding.h>
+
+#include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/operands.h>
+#include <sightline/algorithms/solids/rounding.h>
+#include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/solids.h>
+#include <sightline/harness/generate/tangles.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/harness/laws/flat_faces.h>
+#include <sightline/harness/laws/solid_oracle.h>
+#include <sightline/kernel/scene/exact_plane.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace sightline::harness {
+
+using generate::Random;
+
+namespace {
+
+// ---- Faces and their sides
+
+/// Of a face, of the length of twice its area.
+Exact_point normal_of(const Polygon_soup& soup, Face_id face) {
+  const auto loop = soup.loop(face);
+  Exact_point sum;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    const Exact_point part =
+        cross(minus(soup.point(loop[i]), soup.point(loop[0])), minus(soup.point(loop[i + 1]), soup.point(loop[0])));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+  }
+  return sum;
+}
+
+/// Whether a cube around p, 2 reach wide, is seen to meet no face: by its box, or its plane.
+bool is_off(const Polygon_soup& surface, const Exact_point& p, const Rational& reach) {
+  for (Face_id f = 0; f < surface.face_count(); ++f) {
+    bool apart = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto loop = surface.loop(f);
+      const auto is_above = [&](Point_id q) { return surface.point(q)[k] > p[k] + reach; };
+      const auto is_below = [&](Point_id q) { return surface.point(q)[k] < p[k] - reach; };
+      apart =
+          apart || std::all_of(loop.begin(), loop.end(), is_above) || std::all_of(loop.begin(), loop.end(), is_below);
+    }
+    if (apart) continue;
+    const Exact_point normal = normal_of(surface, f);
+    const Rational height = abs(dot(normal, minus(p, surface.point(surface.loop(f)[0]))));
+    if (height <= reach * (abs(normal[0]) + abs(normal[1]) + abs(normal[2]))) return false;
+  }
+  return true;
+}
+
+/// Farther from a surface than rounding moved anything, what was inside is, and nothing else.
+std::string flaw_of_places(const Polygon_soup& before, const Rounded_surface& after, Random& random) {
+  const std::vector<Exact_point> corners = corners_of(before);
+  if (corners.empty()) return after.soup.face_count() == 0 ? "" : "faces come of nothing";
+  const Rational reach = exact(after.farthest);
+  const Solid_oracle then(before), now(after.soup);
+  constexpr int points = 8;
+  for (int i = 0; i < points; ++i) {
+    Exact_point p = any_point_of(corners, random);
+    const bool is_near = random.chance(1, 2);
+    if (is_near) p = corners[random.below(corners.size())];
+    for (Rational& x : p) {
+      const auto steps = static_cast<long>(random.between(-8, 8));
+      if (is_near) x += reach * steps / 3;
+    }
+    if (!is_off(before, p, reach) || then.is_on_a_face(p)) continue;
+    if (now.is_on_a_face(p)) return "the surface is at " + text_of(p) + ", farther than anything moved";
+    if (now.winding(p, random) != then.winding(p, random))
+      return text_of(p) + " is inside before or after only, farther than anything moved";
+  }
+  return {};
+}
+
+// ---- What crosses
+
+/// What a convex face has inside another one, in another plane: a segment, and whether it goes through there.
+enum class Meeting { none, stands, passes };
+
+Meeting meeting_of(const Flat_face& face, const Flat_face& other) {
+  // 1. Where the other one meets the face's plane.
+  std::vector<Exact_point> ends;
+  bool front = false, behind = false;
+  for (std::size_t k = 0; k < other.corners.size(); ++k) {
+    const Exact_point &p = other.corners[k], &q = other.corners[(k + 1) % other.corners.size()];
+    const Rational s = face.height(p), t = face.height(q);
+    front = front || s > 0;
+    behind = behind || s < 0;
+    if (s == 0) ends.push_back(p);
+    else if (sgn(s) * sgn(t) < 0) ends.push_back(generate::along(p, Rational(s / (s - t)), minus(q, p)));
+  }
+  if (ends.empty()) return Meeting::none;
+  auto [from, to] = std::pair(*std::min_element(ends.begin(), ends.end()), *std::max_element(ends.begin(), ends.end()));
+  // 2. What of that is inside the face.
+  for (std::size_t k = 0; k < face.corners.size(); ++k) {
+    const Exact_point& p = face.corners[k];
+    const Exact_point inwards = cross(face.normal, minus(face.corners[(k + 1) % face.corners.size()], p));
+    const Rational s = dot(inwards, minus(from, p)), t = dot(inwards, minus(to, p));
+    if (s <= 0 && t <= 0) return Meeting::none;
+    const Exact_point cut = s == t ? from : generate::along(from, Rational(s / (s - t)), minus(to, from));
+    if (s < 0) from = cut;
+    else if (t < 0) to = cut;
+  }
+  if (from == to) return Meeting::none;
+  return front && behind ? Meeting::passes : Meeting::stands;
+}
+
+/// Nothing where it is not asked.
+std::optional<Meeting> meeting_of_both(const Flat_face& a, const Flat_face& b) {
+  const auto is_on = [&](const Exact_point& p) { return a.height(p) == 0; };
+  if (std::all_of(b.corners.begin(), b.corners.end(), is_on)) return std::nullopt;
+  return std::max(meeting_of(a, b), meeting_of(b, a));
+}
+
+/// Whether all corners are inside of each edge or on its line, and no edge goes back.
+bool is_convex_face(const Flat_face& face) {
+  const std::size_t size = face.corners.size();
+  for (std::size_t k = 0; k < size; ++k) {
+    const Exact_point &p = face.corners[k], &q = face.corners[(k + 1) % size], &r = face.corners[(k + 2) % size];
+    const Exact_point edge = minus(q, p), next = minus(r, q), inwards = cross(face.normal, edge);
+    if (is_zero(edge) || (dot(edge, next) < 0 && is_zero(cross(edge, next)))) return false;
+    for (const Exact_point& corner : face.corners)
+      if (dot(inwards, minus(corner, p)) < 0) return false;
+  }
+  return !is_zero(face.normal);
+}
+
+/// Faces that are convex, with area.
+std::vector<std::optional<Flat_face>> convex_faces(const Polygon_soup& soup) {
+  std::vector<std::optional<Flat_face>> faces;
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    generate::Points corners;
+    for (const Point_id p : soup.loop(f)) corners.push_back(soup.point(p));
+    Flat_face face(std::move(corners));
+    faces.emplace_back();
+    if (is_convex_face(face)) faces.back() = std::move(face);
+  }
+  return faces;
+}
+
+using Box = std::array<Triple, 2>;
+
+/// Of a face of which the coordinates are doubles.
+Box box_of(const Flat_face& face) {
+  Box box;
+  const std::array<Exact_point, 2> exact = exact_box(face.corners);
+  for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t k = 0; k < 3; ++k) box[side][k] = nearest_double(exact[side][k]);
+  return box;
+}
+bool are_boxes_apart(const Box& a, const Box& b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) return true;
+  return false;
+}
+
+struct Crossing_flaw {
+  std::string what;
+  bool nothing_meets = true;  // of what is asked, and all is
+};
+
+/// A pair is told iff it meets now and did not, or passes now and did not.
+Crossing_flaw flaw_of_crossing(const Polygon_soup& exact, const Rounded_surface& near) {
+  constexpr std::size_t most_faces = 24;  // all pairs of them
+  Crossing_flaw flaw;
+  if (near.soup.face_count() > most_faces) return {{}, false};
+  const std::vector<std::optional<Flat_face>> now = convex_faces(near.soup), before = convex_faces(exact);
+  std::vector<Box> boxes;
+  for (const auto& face : now) {
+    boxes.emplace_back();
+    if (face) boxes.back() = box_of(*face);
+    else flaw.nothing_meets = false;
+  }
+  const std::set<std::pair<Face_id, Face_id>> told(near.crossing.begin(), near.crossing.end());
+  for (Face_id a = 0; a < now.size(); ++a)
+    for (Face_id b = a + 1; b < now.size(); ++b) {
+      if (!now[a] || !now[b]) continue;
+      const std::string pair = "faces " + std::to_string(a) + " and " + std::to_string(b);
+      const bool is_told = told.count({a, b}) > 0;
+      std::optional<Meeting> meets = Meeting::none, met = Meeting::none;
+      if (!are_boxes_apart(boxes[a], boxes[b])) meets = meeting_of_both(*now[a], *now[b]);
+      if (meets != Meeting::none) flaw.nothing_meets = false;
+      if (!meets) continue;
+      if (*meets == Meeting::none) {
+        if (is_told) return {pair + " are said to cross, and do not", false};
+        continue;
+      }
+      const Face_id of_a = near.face_of[a], of_b = near.face_of[b];
+      if (of_a != of_b) {
+        if (!before[of_a] || !before[of_b]) continue;
+        met = meeting_of_both(*before[of_a], *before[of_b]);
+        if (!met) continue;
+      }
+      const bool is_new = *met == Meeting::none || (*meets == Meeting::passes && *met == Meeting::stands);
+      if (near.moved > 0 && is_new != is_told)
+        return {pair + (is_told ? " are said to cross, and did before" : " cross, which is not said"), false};
+    }
+  return flaw;
+}
+
+// ---- What is inside
+
+/// How often the surface winds round what is just before and just behind a point inside a face.
+std::array<int, 2> windings_beside(const Solid_oracle& surface, const Flat_face& face, Random& random) {
+  static const Rational little = generate::power_of_two(-2000);  // nearer than any other face may be
+  const Exact_point p = generate::centroid(face.corners);
+  const int front = surface.winding(generate::along(p, little, face.normal), random);
+  return {front, surface.winding(generate::along(p, Rational(-little), face.normal), random)};
+}
+
+/// Of a sound surface any face has the inside behind it; where nothing meets, all others are told.
+std::string flaw_of_sides(const Rounded_surface& near, bool nothing_meets, Random& random) {
+  constexpr std::size_t most_faces = 12, asked = 1;
+  const std::size_t count = near.soup.face_count();
+  const bool is_of_all = nothing_meets && near.moved > 0 && count <= most_faces;
+  if (count == 0 || (!near.is_sound() && !is_of_all)) return {};
+  const Solid_oracle surface(near.soup);
+  const std::vector<std::optional<Flat_face>> faces = convex_faces(near.soup);
+  const std::set<Face_id> told(near.misplaced.begin(), near.misplaced.end());
+  for (std::size_t k = 0; k < (is_of_all ? count : asked); ++k) {
+    const auto f = static_cast<Face_id>(is_of_all ? k : random.below(count));
+    if (!faces[f]) continue;
+    if ((windings_beside(surface, *faces[f], random) == std::array{0, 1}) == (told.count(f) > 0))
+      return "face " + std::to_string(f) + " has not the inside behind it and nothing before it, or it is said so";
+  }
+  return {};
+}
+
+Polygon_soup union_of(const std::vector<Polygon_soup>& solids, Inside_rule rule) {
+  Set_options options;
+  options.inside = rule;
+  return set_operation(Operands(solids), options).soup;
+}
+
+}  // namespace
+
+std::string flaw_of_rounded(const Polygon_soup& exact, Random& random) {
+  std::vector<Rounded_surface> both;
+  try {
+    both = {rounded(exact, Rounding::to_float), snapped(exact, Rounding::to_float)};
+  } catch (const std::domain_error&) {  // beyond what floats hold
+    return {};
+  }
+  for (const Rounded_surface& near : both) {
+    const std::string name = near.rounds > 0 ? "snapped: " : "rounded: ";
+    const std::vector<Polygon_soup> one{near.soup};
+    const std::vector<Operand_flaw> all = flaws(Operands(one));
+    const bool crosses_itself =  // a face; its edges are open then
+        std::any_of(all.begin(), all.end(), [](const Operand_flaw& flaw) { return !flaw.why.empty(); });
+    if (!all.empty() && (!crosses_itself || near.is_sound())) return name + "the surface is not closed any more";
+    for (Face_id f = 0; f < near.soup.face_count(); ++f) {
+      const Exact_point before = normal_of(exact, near.face_of[f]);
+      const bool is_turned = dot(normal_of(near.soup, f), before) < 0;
+      if (is_turned != (std::count(near.turned.begin(), near.turned.end(), f) > 0))
+        return name + "a face is turned over and not said to be, or the other way round";
+    }
+    bool nothing_meets = false;
+    if (near.rounds == 0) {
+      const Crossing_flaw crossing = flaw_of_crossing(exact, near);
+      if (!crossing.what.empty()) return name + crossing.what;
+      nothing_meets = crossing.nothing_meets && near.collapsed.empty();
+    }
+    if (const std::string flaw = flaw_of_sides(near, nothing_meets, random); !flaw.empty()) return name + flaw;
+    if (!near.is_sound()) continue;
+    if (const std::string flaw = flaw_of_places(exact, near, random); !flaw.empty()) return name + flaw;
+    const Rational signed_volume = volume(near.soup);
+    for (const Inside_rule rule : {Inside_rule::positive, Inside_rule::nonzero})
+      if (volume(union_of(one, rule)) != signed_volume)
+        return name + "said to be sound, but not wound once round what is " + sightline::name(rule);
+  }
+  return {};
+}
+
+std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& random) {
+  Set_options options;
+  options.operation = set_operations[random.below(4)];
+  const Set_result result = set_operation(Operands(solids), options);
+  const Rational far = generate::power_of_two(static_cast<int>(random.between(10, 24)));
+  const Polygon_soup exact = without_holes(generate::translated(result.soup, {far, far / 3, 0})).soup;
+  if (const std::string flaw = flaw_of_rounded(exact, random); !flaw.empty()) return flaw;
+  if (const std::string flaw = flaw_of_rounded(generate::thin_tetrahedron(random), random); !flaw.empty())
+    return "a thin tetrahedron, " + flaw;
+  if (!random.chance(1, 2)) return {};
+  const std::string flaw = flaw_of_rounded(generate::tetrahedron_upon_a_box(random), random);
+  return flaw.empty() ? flaw : "a tetrahedron upon a box, " + flaw;
+}
+
+}  // namespace sightline::harness
