@@ -219,7 +219,8 @@ TEST(Checker, planes_and_heights_are_those_of_rationals_on_fine_and_wide_grids) 
   const std::array<Rational, 5> steps{1, Rational(1, 3), Rational(1, 1 << 20), Rational(1, Integer(1) << 70),
                                       Rational(Integer(1) << 40)};
   // Corners are so far from each other, and from the origin: up to where machine numbers just suffice, and beyond.
-  const std::array<Integer, 6> spans{4, 1 << 20, (1 << 30) - 1, 1 << 30, Integer(1) << 31, Integer(1) << 64};
+  const std::array<Integer, 7> spans{
+      4, 1 << 20, (1 << 30) - 1, 1 << 30, Integer(1) << 31, Integer(1) << 38, Integer(1) << 64};
   const std::array<Integer, 4> places{0, Integer(1) << 40, (Integer(1) << 62) - 7, Integer(1) << 66};
   std::set<std::size_t> on_a_line;
   for (int k = 0; k < test_scenes::sample(3000); ++k) {
