@@ -65,6 +65,30 @@ Rational size_of(const Polygon_soup& soup) {
   return size;
 }
 
+/// A point inside a fragment that no face holds but those that hold all of it: corners of others may touch it, and
+/// beside such a point is not what is beside the fragment. The middle of its corners, or one at random.
+Exact_point untouched_point(const Result_fragment& fragment, const Exact_point& normal, const Ray_tracer& tracer) {
+  const auto is_of_fragment = [&](const Face_hit& hit) {
+    return std::any_of(fragment.parts.begin(), fragment.parts.end(),
+                       [&](const Result_fragment::Part& part) { return part.face == hit.face; });
+  };
+  generate::Random random(fragment.corners.size());
+  Ray_counters counters;
+  Exact_point on = generate::centroid(fragment.corners);
+  for (;;) {
+    const std::vector<Face_hit> held = tracer.first({on, normal}, Ray_start::closed, counters);
+    if (std::all_of(held.begin(), held.end(), is_of_fragment)) return on;
+    on = {0, 0, 0};
+    long all = 0;
+    for (const Exact_point& corner : fragment.corners) {
+      const auto weight = static_cast<long>(random.between(1, 97));
+      on = generate::along(on, weight, corner);
+      all += weight;
+    }
+    for (Rational& x : on) x /= all;
+  }
+}
+
 /// Two points on either side of each fragment, or of as many of them, evenly spread.
 void add_points_of_fragments(const Polygon_soup& soup, const Ray_tracer& tracer, const Set_result& result,
                              Set_operation operation, std::vector<Judged_point>& points) {
@@ -75,7 +99,7 @@ void add_points_of_fragments(const Polygon_soup& soup, const Ray_tracer& tracer,
   for (std::size_t i = 0; i < taken; ++i) {
     const Result_fragment& fragment = result.fragments[i * fragments / taken];
     const harness::Flat_face flat(fragment.corners);
-    const Exact_point on = generate::centroid(fragment.corners);
+    const Exact_point on = untouched_point(fragment, flat.normal, tracer);
     const bool dropped_inside = fragment.fate == Result_fragment::Fate::dropped &&
                                 is_in_result(operation, Inside_rule::positive, fragment.front, 2);
     for (const int side : {1, -1}) {

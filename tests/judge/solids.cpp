@@ -1,5 +1,6 @@
 // Judging set operations: the protocol, the points that answers are judged at, and what is found wrong.
 
+#include "../sample.h"
 #include "../solids/shapes.h"
 
 #include <sightline/algorithms/solids/measure.h>
@@ -17,6 +18,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <set>
 #include <sstream>
 
@@ -125,6 +127,53 @@ TEST(Solids, that_bound_nothing_are_not_asked_about) {
   EXPECT_EQ(why(corner_box, Polygon_soup()), "a solid has no faces");
   EXPECT_EQ(why(corner_box, twice), "a solid winds otherwise than once round its inside");
   EXPECT_EQ(why(inward, other_box), "a solid winds otherwise than once round its inside");
+}
+
+/// Whether each point that is judged is inside what winding numbers say.
+void expect_points_as_winding_numbers_say(const Asked_solids& of) {
+  const std::array<Polygon_soup, 2> solids = solids_of(of.soup, of.query.first);
+  const std::array<harness::Solid_oracle, 2> oracles{harness::Solid_oracle(solids[0]),
+                                                     harness::Solid_oracle(solids[1])};
+  generate::Random random(1);
+  const Solid_truth truth = solid_truth(of.soup, of.query, 1);
+  EXPECT_GT(truth.points.size(), 0u);
+  for (const Judged_point& point : truth.points) {
+    Windings windings;
+    for (std::uint32_t operand = 0; operand < 2; ++operand) {
+      ASSERT_FALSE(oracles[operand].is_on_a_face(point.at));
+      windings.push_back({operand, oracles[operand].winding(point.at, random)});
+    }
+    EXPECT_EQ(point.inside, is_in_result(of.query.operation, Inside_rule::positive, windings, 2))
+        << "beside face " << point.face << ", " << name(of.query.operation);
+  }
+}
+
+TEST(Solids, have_points_beside_a_face_where_no_corner_touches_it) {
+  // Two tetrahedra: the apex of the first is the middle of a face of the second, and between them is nothing.
+  Polygon_soup above, below;
+  const auto add = [](Polygon_soup& soup, const std::array<std::array<long, 3>, 4>& corners) {
+    for (const std::array<long, 3>& p : corners) soup.add_point(Rational(p[0]), Rational(p[1]), Rational(p[2]));
+    for (const std::array<Point_id, 3>& face : {std::array<Point_id, 3>{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}})
+      soup.add_face(std::vector<Point_id>(face.begin(), face.end()));
+  };
+  add(above, {{{-1, -5, -2}, {5, 1, 4}, {-1, 1, -2}, {1, -1, -1}}});
+  add(below, {{{-1, -3, -3}, {5, -3, 3}, {-1, 3, -3}, {2, -1, -1}}});
+  for (const Set_operation operation : set_operations)
+    expect_points_as_winding_numbers_say(asked(above, below, operation));
+}
+
+TEST(Solids, of_pairs_that_touch_have_points_as_winding_numbers_say) {
+  for (const generate::Family& family : generate::families())
+    for (std::uint64_t seed = 1; family.pair && seed <= test_scenes::sample(12u); ++seed) {
+      generate::Family_parameters parameters;
+      parameters.seed = seed;
+      parameters.size = family.small_size;
+      const generate::Posed_scene posed = family.make(parameters);
+      SCOPED_TRACE(posed.name);
+      const std::array<Polygon_soup, 2> solids = solids_of(posed.soup, posed.first);
+      for (const Set_operation operation : set_operations)
+        expect_points_as_winding_numbers_say(asked(solids[0], solids[1], operation));
+    }
 }
 
 TEST(Solids, of_two_boxes_are_right_for_one_operation_alone) {
