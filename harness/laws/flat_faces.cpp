@@ -161,31 +161,35 @@ bool some_eye_sees_over(const Points& hull, const Flat_face& a, const Flat_face&
   return true;
 }
 
-bool cross_each_other(const Flat_face& a, const Flat_face& b) {
-  Points ends;  // of what b's plane has of a
-  bool above = false, below = false;
-  for (std::size_t k = 0; k < a.corners.size(); ++k) {
-    const Exact_point &p = a.corners[k], &q = a.corners[(k + 1) % a.corners.size()];
-    const Rational from = b.height(p), to = b.height(q);
-    above = above || from > 0;
-    below = below || from < 0;
-    if (from == 0) ends.push_back(p);
-    if (sgn(from) * sgn(to) < 0) ends.push_back(along(p, Rational(from / (from - to)), minus(q, p)));
+Face_meeting meeting_of(const Flat_face& face, const Flat_face& other) {
+  // 1. Where the other one meets the face's plane.
+  Points ends;
+  bool front = false, behind = false;
+  for (std::size_t k = 0; k < other.corners.size(); ++k) {
+    const Exact_point &p = other.corners[k], &q = other.corners[(k + 1) % other.corners.size()];
+    const Rational s = face.height(p), t = face.height(q);
+    front = front || s > 0;
+    behind = behind || s < 0;
+    if (s == 0) ends.push_back(p);
+    else if (sgn(s) * sgn(t) < 0) ends.push_back(along(p, Rational(s / (s - t)), minus(q, p)));
   }
-  if (!above || !below || ends.size() != 2) return false;
-  // The part of the open segment inside b.
-  const Exact_point segment = minus(ends[1], ends[0]);
-  Rational least = 0, most = 1;
-  for (std::size_t k = 0; k < b.corners.size(); ++k) {
-    const Exact_point& p = b.corners[k];
-    const Exact_point inwards = cross(b.normal, minus(b.corners[(k + 1) % b.corners.size()], p));
-    const Rational at = dot(inwards, minus(ends[0], p)), rise = dot(inwards, segment);
-    if (rise == 0 && at <= 0) return false;
-    if (rise > 0) least = std::max(least, Rational(-at / rise));
-    if (rise < 0) most = std::min(most, Rational(-at / rise));
+  if (ends.empty()) return Face_meeting::none;
+  auto [from, to] = std::pair(*std::min_element(ends.begin(), ends.end()), *std::max_element(ends.begin(), ends.end()));
+  // 2. What of that is inside the face.
+  for (std::size_t k = 0; k < face.corners.size(); ++k) {
+    const Exact_point& p = face.corners[k];
+    const Exact_point inwards = cross(face.normal, minus(face.corners[(k + 1) % face.corners.size()], p));
+    const Rational s = dot(inwards, minus(from, p)), t = dot(inwards, minus(to, p));
+    if (s <= 0 && t <= 0) return Face_meeting::none;
+    const Exact_point cut = s == t ? from : along(from, Rational(s / (s - t)), minus(to, from));
+    if (s < 0) from = cut;
+    else if (t < 0) to = cut;
   }
-  return least < most;
+  if (from == to) return Face_meeting::none;
+  return front && behind ? Face_meeting::passes : Face_meeting::stands;
 }
+
+bool cross_each_other(const Flat_face& a, const Flat_face& b) { return meeting_of(b, a) == Face_meeting::passes; }
 
 // ---- What is asked
 

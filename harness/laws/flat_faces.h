@@ -52,6 +52,10 @@ bool sees_over(const Exact_point& eye, const Flat_face& a, const Flat_face& b);
 /// corners p, q and all r; whether there is one, half-spaces say that cut each octant of all n.
 bool some_eye_sees_over(const generate::Points& hull, const Flat_face& a, const Flat_face& b);
 
+/// What a convex face has inside another one, in another plane: a segment, and whether it goes through there.
+enum class Face_meeting { none, stands, passes };
+Face_meeting meeting_of(const Flat_face& face, const Flat_face& other);
+
 /// Whether the insides of two faces in different planes have a point in common.
 bool cross_each_other(const Flat_face& a, const Flat_face& b);
 

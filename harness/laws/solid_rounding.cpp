@@ -28,20 +28,6 @@ using generate::Random;
 
 namespace {
 
-// ---- Faces and their sides
-
-/// Of a face, of the length of twice its area.
-Exact_point normal_of(const Polygon_soup& soup, Face_id face) {
-  const auto loop = soup.loop(face);
-  Exact_point sum;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const Exact_point part =
-        cross(minus(soup.point(loop[i]), soup.point(loop[0])), minus(soup.point(loop[i + 1]), soup.point(loop[0])));
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
-  }
-  return sum;
-}
-
 /// Whether a cube around p, 2 reach wide, is seen to meet no face: by its box, or its plane.
 bool is_off(const Polygon_soup& surface, const Exact_point& p, const Rational& reach) {
   for (Face_id f = 0; f < surface.face_count(); ++f) {
@@ -54,7 +40,7 @@ bool is_off(const Polygon_soup& surface, const Exact_point& p, const Rational& r
           apart || std::all_of(loop.begin(), loop.end(), is_above) || std::all_of(loop.begin(), loop.end(), is_below);
     }
     if (apart) continue;
-    const Exact_point normal = normal_of(surface, f);
+    const Exact_point normal = doubled_area_vector(surface, f);
     const Rational height = abs(dot(normal, minus(p, surface.point(surface.loop(f)[0]))));
     if (height <= reach * (abs(normal[0]) + abs(normal[1]) + abs(normal[2]))) return false;
   }
@@ -86,39 +72,8 @@ std::string flaw_of_places(const Polygon_soup& before, const Rounded_surface& af
 
 // ---- What crosses
 
-/// What a convex face has inside another one, in another plane: a segment, and whether it goes through there.
-enum class Meeting { none, stands, passes };
-
-Meeting meeting_of(const Flat_face& face, const Flat_face& other) {
-  // 1. Where the other one meets the face's plane.
-  std::vector<Exact_point> ends;
-  bool front = false, behind = false;
-  for (std::size_t k = 0; k < other.corners.size(); ++k) {
-    const Exact_point &p = other.corners[k], &q = other.corners[(k + 1) % other.corners.size()];
-    const Rational s = face.height(p), t = face.height(q);
-    front = front || s > 0;
-    behind = behind || s < 0;
-    if (s == 0) ends.push_back(p);
-    else if (sgn(s) * sgn(t) < 0) ends.push_back(generate::along(p, Rational(s / (s - t)), minus(q, p)));
-  }
-  if (ends.empty()) return Meeting::none;
-  auto [from, to] = std::pair(*std::min_element(ends.begin(), ends.end()), *std::max_element(ends.begin(), ends.end()));
-  // 2. What of that is inside the face.
-  for (std::size_t k = 0; k < face.corners.size(); ++k) {
-    const Exact_point& p = face.corners[k];
-    const Exact_point inwards = cross(face.normal, minus(face.corners[(k + 1) % face.corners.size()], p));
-    const Rational s = dot(inwards, minus(from, p)), t = dot(inwards, minus(to, p));
-    if (s <= 0 && t <= 0) return Meeting::none;
-    const Exact_point cut = s == t ? from : generate::along(from, Rational(s / (s - t)), minus(to, from));
-    if (s < 0) from = cut;
-    else if (t < 0) to = cut;
-  }
-  if (from == to) return Meeting::none;
-  return front && behind ? Meeting::passes : Meeting::stands;
-}
-
 /// Nothing where it is not asked.
-std::optional<Meeting> meeting_of_both(const Flat_face& a, const Flat_face& b) {
+std::optional<Face_meeting> meeting_of_both(const Flat_face& a, const Flat_face& b) {
   const auto is_on = [&](const Exact_point& p) { return a.height(p) == 0; };
   if (std::all_of(b.corners.begin(), b.corners.end(), is_on)) return std::nullopt;
   return std::max(meeting_of(a, b), meeting_of(b, a));
@@ -189,11 +144,11 @@ Crossing_flaw flaw_of_crossing(const Polygon_soup& exact, const Rounded_surface&
       if (!now[a] || !now[b]) continue;
       const std::string pair = "faces " + std::to_string(a) + " and " + std::to_string(b);
       const bool is_told = told.count({a, b}) > 0;
-      std::optional<Meeting> meets = Meeting::none, met = Meeting::none;
+      std::optional<Face_meeting> meets = Face_meeting::none, met = Face_meeting::none;
       if (!are_boxes_apart(boxes[a], boxes[b])) meets = meeting_of_both(*now[a], *now[b]);
-      if (meets != Meeting::none) flaw.nothing_meets = false;
+      if (meets != Face_meeting::none) flaw.nothing_meets = false;
       if (!meets) continue;
-      if (*meets == Meeting::none) {
+      if (*meets == Face_meeting::none) {
         if (is_told) return {pair + " are said to cross, and do not", false};
         continue;
       }
@@ -203,7 +158,8 @@ Crossing_flaw flaw_of_crossing(const Polygon_soup& exact, const Rounded_surface&
         met = meeting_of_both(*before[of_a], *before[of_b]);
         if (!met) continue;
       }
-      const bool is_new = *met == Meeting::none || (*meets == Meeting::passes && *met == Meeting::stands);
+      const bool is_new =
+          *met == Face_meeting::none || (*meets == Face_meeting::passes && *met == Face_meeting::stands);
       if (near.moved > 0 && is_new != is_told)
         return {pair + (is_told ? " are said to cross, and did before" : " cross, which is not said"), false};
     }
@@ -261,8 +217,8 @@ std::string flaw_of_rounded(const Polygon_soup& exact, Random& random) {
         std::any_of(all.begin(), all.end(), [](const Operand_flaw& flaw) { return !flaw.why.empty(); });
     if (!all.empty() && (!crosses_itself || near.is_sound())) return name + "the surface is not closed any more";
     for (Face_id f = 0; f < near.soup.face_count(); ++f) {
-      const Exact_point before = normal_of(exact, near.face_of[f]);
-      const bool is_turned = dot(normal_of(near.soup, f), before) < 0;
+      const Exact_point before = doubled_area_vector(exact, near.face_of[f]);
+      const bool is_turned = dot(doubled_area_vector(near.soup, f), before) < 0;
       if (is_turned != (std::count(near.turned.begin(), near.turned.end(), f) > 0))
         return name + "a face is turned over and not said to be, or the other way round";
     }
