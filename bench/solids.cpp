@@ -8,6 +8,7 @@
 
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/kernel/threads.h>
 
