@@ -192,7 +192,8 @@ class Ray_tracer::Search {
         ray_(ray),
         start_(start),
         only_first_(only_first),
-        counters_(counters) {
+        counters_(counters),
+        whole_(tracer.grid_, ray.given, ray.doubles) {
     look();
   }
 
@@ -203,24 +204,14 @@ class Ray_tracer::Search {
   Nearest between(const Face_hit& hit) const;
 
  private:
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// What may be met, at s between low and high.
   struct Candidate {
     double low, high;
     Face_id face;
     Met_side side;
     std::uint32_t piece, exact;  ///< exact: a place in exact_, or none
-  };
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-
-  /// The ray in integers: (origin + t numerators / denominator) / weight, in grid coordinates.
-  struct Whole {
-    std::array<Integer, 3> origin, direction;
-    Integer weight, denominator;
-  };
-  /// The same where all is short: products of three numbers of Whole and a corner have less than 128 bits then.
-  struct Small {
-    std::array<std::int64_t, 3> origin, direction;
-    std::int64_t weight;
+    Met_border border;           ///< of a piece in whose plane the ray does not run
   };
 
   /// Where the plane of a piece is met, for certain; nothing where doubles do not tell.
@@ -243,15 +234,6 @@ class Ray_tracer::Search {
   void look_exactly(std::uint32_t piece, const std::optional<Depth>& depth);
   /// All of a face of several pieces, as a ray that meets a border of one may meet others.
   void look_at_face(Face_id face);
-  /// Whether the ray's line passes all edges of a piece on one side, or touches them.
-  bool passes(std::uint32_t piece);
-  template <class Product, class Number, class Place>
-  bool passes_in(std::uint32_t piece, const std::array<Number, 3>& direction, Place place) const;
-  /// The part of the ray, from t = 0 on, that a piece holds.
-  std::optional<Face_hit> part(std::uint32_t piece);
-  std::optional<Face_hit> part_along(std::uint32_t piece, const std::array<Integer, 4>& plane);
-  Rational parameter(std::uint32_t piece);
-  const Whole& whole();
   std::array<double, 2> bounds(const Rational& t) const;
 
   const Ray_tracer& tracer_;
@@ -265,9 +247,8 @@ class Ray_tracer::Search {
   boost::container::small_vector<Candidate, 8> candidates_;
   std::vector<Face_hit> exact_;
   std::vector<Face_id> whole_faces_;  // that look_at_face looked at
-  bool begins_along_ = false;         // the ray begins in the plane of such a face, on it
-  std::optional<Whole> whole_;
-  std::optional<Small> small_;  // of that
+  Whole_ray whole_;
+  bool begins_along_ = false;  // the ray begins in the plane of such a face, on it
 };
 
 void Ray_tracer::Search::look() {
@@ -345,7 +326,7 @@ inline void Ray_tracer::Search::look_at(std::uint32_t place) {
   if (d && (d->high < 0 || d->low > limit_)) return;
   if (!d || !(d->low > 0)) return look_exactly(flat.piece, std::nullopt);
   if (v == Verdict::open) return look_exactly(flat.piece, d);
-  offer(Candidate{d->low, d->high, scene_.pieces()[flat.piece].face, d->side, flat.piece, none});
+  offer(Candidate{d->low, d->high, scene_.pieces()[flat.piece].face, d->side, flat.piece, none, {}});
 }
 
 inline void Ray_tracer::Search::offer(const Candidate& candidate) {
@@ -356,7 +337,7 @@ inline void Ray_tracer::Search::offer(const Candidate& candidate) {
 void Ray_tracer::Search::offer(Face_hit hit, std::uint32_t piece) {
   const auto [low, high] = bounds(hit.t);
   const auto place = static_cast<std::uint32_t>(exact_.size());
-  const Candidate candidate{low, high, hit.face, hit.side, piece, place};
+  const Candidate candidate{low, high, hit.face, hit.side, piece, place, {}};
   exact_.push_back(std::move(hit));
   offer(candidate);
 }
@@ -367,10 +348,11 @@ void Ray_tracer::Search::look_exactly(std::uint32_t piece, const std::optional<D
   if (std::find(whole_faces_.begin(), whole_faces_.end(), face) != whole_faces_.end()) return;
   const bool alone = tracer_.first_piece_[face + 1] - tracer_.first_piece_[face] == 1;
   if (alone && depth) {  // t is exact where it is asked for
-    if (passes(piece)) offer(Candidate{depth->low, depth->high, face, depth->side, piece, none});
+    if (const std::optional<Met_border> at = whole_.crosses(piece))
+      offer(Candidate{depth->low, depth->high, face, depth->side, piece, none, *at});
     return;
   }
-  std::optional<Face_hit> found = part(piece);
+  std::optional<Face_hit> found = whole_.part(piece);
   if (!found) return;
   if (!alone) return look_at_face(face);
   if (start_ == Ray_start::closed || found->t > 0) offer(std::move(*found), piece);
@@ -380,138 +362,16 @@ void Ray_tracer::Search::look_at_face(Face_id face) {
   whole_faces_.push_back(face);
   std::vector<Face_hit> parts;
   for (std::uint32_t piece = tracer_.first_piece_[face]; piece < tracer_.first_piece_[face + 1]; ++piece)
-    if (std::optional<Face_hit> found = part(piece)) {
+    if (std::optional<Face_hit> found = whole_.part(piece)) {
       begins_along_ = begins_along_ || (found->t == 0 && found->until > 0);
       parts.push_back(std::move(*found));
     }
   for (Face_hit& hit : hits_of(std::move(parts), start_)) offer(std::move(hit), none);
 }
 
-// ---- Exact numbers
+// ---- What was found
 
-const Ray_tracer::Search::Whole& Ray_tracer::Search::whole() {
-  if (whole_) return *whole_;
-  whole_.emplace();
-  const Exact_ray ray = ray_.exact();
-  Located_point from = scene_.locate(ray.origin);
-  whole_->origin = {std::move(from.x), std::move(from.y), std::move(from.z)};
-  whole_->weight = std::move(from.w);
-  whole_->denominator = 1;
-  Exact_point direction;
-  for (std::size_t k = 0; k < 3; ++k) {
-    direction[k] = ray.direction[k] / tracer_.step_;
-    whole_->denominator = lcm(whole_->denominator, direction[k].get_den());
-  }
-  for (std::size_t k = 0; k < 3; ++k)
-    whole_->direction[k] = direction[k].get_num() * (whole_->denominator / direction[k].get_den());
-  // In machine numbers: the direction is below 2^40, corners from the origin, times the weight, are below 2^41.
-  constexpr std::size_t most_bits = 40;
-  const Grid_points& points = scene_.points();
-  bool is_short = bit_length(whole_->weight) + static_cast<std::size_t>(points.bits()) <= most_bits;
-  for (std::size_t k = 0; k < 3; ++k)
-    is_short = is_short && bit_length(whole_->origin[k]) <= most_bits && bit_length(whole_->direction[k]) <= most_bits;
-  if (!is_short) return *whole_;
-  small_.emplace();
-  for (std::size_t k = 0; k < 3; ++k) {
-    small_->origin[k] = whole_->origin[k].get_si();
-    small_->direction[k] = whole_->direction[k].get_si();
-  }
-  small_->weight = whole_->weight.get_si();
-  return *whole_;
-}
-
-Rational Ray_tracer::Search::parameter(std::uint32_t piece) {
-  const Whole& w = whole();
-  const std::array<Integer, 4> h = scene_.predicates().coefficients(scene_.pieces()[piece].support);
-  const Integer value = h[0] * w.origin[0] + h[1] * w.origin[1] + h[2] * w.origin[2] + h[3] * w.weight;
-  const Integer slope = h[0] * w.direction[0] + h[1] * w.direction[1] + h[2] * w.direction[2];
-  Rational t(-value * w.denominator, slope * w.weight);
-  t.canonicalize();
-  return t;
-}
-
-/// place(point, k): a coordinate of a corner from the ray's origin. Products of three numbers are in Product.
-template <class Product, class Number, class Place>
-bool Ray_tracer::Search::passes_in(std::uint32_t piece, const std::array<Number, 3>& direction, Place place) const {
-  const auto from_origin = [&](std::uint32_t point) {
-    return std::array<Number, 3>{place(point, 0), place(point, 1), place(point, 2)};
-  };
-  const std::span<const Piece_corner> corners = scene_.corners(scene_.pieces()[piece]);
-  bool left = false, right = false;
-  std::array<Number, 3> a = from_origin(corners.back().point);
-  for (const Piece_corner& corner : corners) {
-    std::array<Number, 3> b = from_origin(corner.point);
-    Product side = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      side += direction[k] * (static_cast<const Product&>(a[(k + 1) % 3]) * b[(k + 2) % 3] -
-                              static_cast<const Product&>(a[(k + 2) % 3]) * b[(k + 1) % 3]);
-    left = left || side > 0;
-    right = right || side < 0;
-    if (left && right) return false;
-    a = std::move(b);
-  }
-  return true;
-}
-
-bool Ray_tracer::Search::passes(std::uint32_t piece) {
-  const Whole& w = whole();
-  const Grid_points& points = scene_.points();
-  if (small_)
-    return passes_in<__int128>(piece, small_->direction, [&](std::uint32_t point, int k) {
-      return small_->weight * points.small(point, k) - small_->origin[static_cast<std::size_t>(k)];
-    });
-  return passes_in<Integer>(piece, w.direction, [&](std::uint32_t point, int k) -> Integer {
-    return w.weight * points.integer(point, k) - w.origin[static_cast<std::size_t>(k)];
-  });
-}
-
-std::optional<Face_hit> Ray_tracer::Search::part(std::uint32_t piece) {
-  const Whole& w = whole();
-  const Piece& its = scene_.pieces()[piece];
-  const std::array<Integer, 4> h = scene_.predicates().coefficients(its.support);
-  const Integer slope = h[0] * w.direction[0] + h[1] * w.direction[1] + h[2] * w.direction[2];
-  if (slope == 0) return part_along(piece, h);
-  if (!passes(piece)) return std::nullopt;
-  Rational t = parameter(piece);
-  if (t < 0) return std::nullopt;
-  return Face_hit{its.face, slope < 0 ? Met_side::front : Met_side::back, t, t};
-}
-
-std::optional<Face_hit> Ray_tracer::Search::part_along(std::uint32_t piece, const std::array<Integer, 4>& plane) {
-  const Whole& w = whole();
-  const Integer value = plane[0] * w.origin[0] + plane[1] * w.origin[1] + plane[2] * w.origin[2] + plane[3] * w.weight;
-  if (value != 0) return std::nullopt;
-  const Piece& its = scene_.pieces()[piece];
-  const std::span<const Piece_corner> corners = scene_.corners(its);
-  Rational low = 0;
-  std::optional<Rational> high;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    // Inside of an edge is where normal x edge is positive.
-    const std::uint32_t p = corners[i].point, q = corners[i + 1 == corners.size() ? 0 : i + 1].point;
-    std::array<Integer, 3> at, edge;
-    for (std::size_t k = 0; k < 3; ++k) {
-      at[k] = scene_.points().integer(p, static_cast<int>(k));
-      edge[k] = scene_.points().integer(q, static_cast<int>(k)) - at[k];
-    }
-    Integer inside = 0, slope = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Integer inwards = plane[(k + 1) % 3] * edge[(k + 2) % 3] - plane[(k + 2) % 3] * edge[(k + 1) % 3];
-      inside += inwards * (w.origin[k] - w.weight * at[k]);
-      slope += inwards * w.direction[k];
-    }
-    if (slope == 0) {
-      if (inside < 0) return std::nullopt;
-      continue;
-    }
-    Rational t(-inside * w.denominator, slope * w.weight);
-    t.canonicalize();
-    if (slope > 0) low = std::max(low, t);
-    else if (!high || t < *high) high = t;
-    if (high && *high < low) return std::nullopt;
-  }
-  return Face_hit{its.face, Met_side::along, low, *high};  // a piece is bounded
-}
-
+/// Of s.
 std::array<double, 2> Ray_tracer::Search::bounds(const Rational& t) const {
   if (ray_.blind) return {0, std::numeric_limits<double>::infinity()};
   Rational exact = ray_.shift ? Rational(t - *ray_.shift) : t;
@@ -521,15 +381,18 @@ std::array<double, 2> Ray_tracer::Search::bounds(const Rational& t) const {
   return {s - error, s + error};
 }
 
-// ---- What was found
-
 std::optional<Ray_tracer::Nearest> Ray_tracer::Search::nearest() const {
   if (begins_along_ && start_ == Ray_start::open) return std::nullopt;
   const Candidate* first = nullptr;
+  bool tied = false;
   for (const Candidate& candidate : candidates_) {
     if (candidate.low > limit_) continue;
-    if (first != nullptr || candidate.exact != none) return std::nullopt;
-    first = &candidate;
+    if (candidate.exact != none) return std::nullopt;
+    if (first != nullptr) {  // planes that the line crosses meet it in one point of a corner or an edge that they share
+      if (!candidate.border.is_known() || candidate.border != first->border) return std::nullopt;
+      tied = true;
+    }
+    if (first == nullptr || candidate.face < first->face) first = &candidate;
   }
   if (first == nullptr) return Nearest{};
   if (!whole_faces_.empty()) return std::nullopt;
@@ -539,7 +402,7 @@ std::optional<Ray_tracer::Nearest> Ray_tracer::Search::nearest() const {
     const double t = (s + ray_.offset) / per_t;
     return t + shift + wider * (0x1p-49 * (std::fabs(t) + std::fabs(shift)) + 0x1p-1060);
   };
-  return Nearest{first->face, first->side, false, at(first->low, -1), at(first->high, 1)};
+  return Nearest{first->face, first->side, tied, at(first->low, -1), at(first->high, 1)};
 }
 
 std::vector<Face_hit> Ray_tracer::Search::hits() {
@@ -552,7 +415,7 @@ std::vector<Face_hit> Ray_tracer::Search::hits() {
     if (candidate.exact != none) {
       parts.push_back(exact_[candidate.exact]);
     } else {
-      const Rational t = parameter(candidate.piece);
+      const Rational t = whole_.parameter(candidate.piece);
       parts.push_back({candidate.face, candidate.side, t, t});
     }
   }
@@ -572,15 +435,14 @@ Ray_tracer::Nearest Ray_tracer::Search::between(const Face_hit& hit) const {
 
 // ---- The tracer
 
-Ray_tracer::Ray_tracer(const Scene& scene) : scene_(&scene) {
+Ray_tracer::Ray_tracer(const Scene& scene) : scene_(&scene), grid_(scene) {
   // 1. Doubles: coordinates of at most 1.
   const Grid_points& points = scene.points();
   const Exact_point centre = scene.position({0, 0, 0, 1});
-  step_ = scene.position({1, 0, 0, 1})[0] - centre[0];
   int exponent = 0;
   std::frexp(points.range(), &exponent);
   scale_ = std::ldexp(1.0, -exponent);
-  per_unit_ = sightline::exact(scale_) / (step_ * points.divisor());
+  per_unit_ = sightline::exact(scale_) / (grid_.step() * points.divisor());
   mpq_div_2exp(per_unit_.get_mpq_t(), per_unit_.get_mpq_t(), static_cast<mp_bitcnt_t>(points.shift()));
   about_per_unit_ = nearest_double(per_unit_);
   for (std::size_t k = 0; k < 3; ++k) {

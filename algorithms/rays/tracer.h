@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/rays/ray.h>
 #include <sightline/algorithms/rays/ray_boxes.h>
+#include <sightline/algorithms/rays/whole_ray.h>
 #include <sightline/kernel/counters.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
@@ -79,7 +80,7 @@ class Ray_tracer {
   Ray prepared(const Double_ray& ray) const;
 
   const Scene* scene_;
-  Rational step_;              ///< of the grid, in the file's coordinates
+  Whole_ray::Grid grid_;
   Rational per_unit_;          ///< scaled coordinates per unit of the file; scaled ones are at most 1
   double scale_ = 1;           ///< scaled coordinates per approximate one: a power of two
   double about_per_unit_ = 0;  ///< per_unit_ within 2^-52; 0: doubles do not hold it

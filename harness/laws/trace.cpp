@@ -13,6 +13,7 @@
 #include <sightline/sightline.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <set>
 #include <string>
@@ -43,20 +44,76 @@ Exact_point normal_of(const Loops& loops) {
   return normal;
 }
 
-/// Whether a point of the plane is on an edge, or inside: an odd number of edges is beyond it along an axis.
-bool holds(const Loops& loops, const Exact_point& normal, const Exact_point& p) {
-  const std::size_t across = normal[2] != 0 ? 2 : normal[1] != 0 ? 1 : 0, x = (across + 1) % 3, y = (across + 2) % 3;
-  bool inside = false;
-  for (const std::vector<Exact_point>& loop : loops)
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Exact_point &a = loop[k], &b = loop[(k + 1) % loop.size()];
-      const Rational turn = (b[x] - a[x]) * (p[y] - a[y]) - (b[y] - a[y]) * (p[x] - a[x]);
-      const bool between = std::min(a[x], b[x]) <= p[x] && p[x] <= std::max(a[x], b[x]) &&
-                           std::min(a[y], b[y]) <= p[y] && p[y] <= std::max(a[y], b[y]);
-      if (turn == 0 && between) return true;
-      if ((a[y] <= p[y]) != (b[y] <= p[y]) && (turn > 0) == (a[y] < b[y])) inside = !inside;
+using Flat_point = std::array<Rational, 2>;
+Rational turn(const Flat_point& u, const Flat_point& v) { return u[0] * v[1] - u[1] * v[0]; }
+
+/// Of a point: where the loops' edges go from it, and how far from it along a direction the first other edge is met.
+struct Edges_from {
+  std::vector<std::array<Flat_point, 2>> others;  // from the point
+  std::vector<Flat_point> directions;
+
+  Edges_from(const Loops& loops, std::size_t x, std::size_t y, const Exact_point& p) {
+    for (const std::vector<Exact_point>& loop : loops)
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Exact_point &a = loop[k], &b = loop[(k + 1) % loop.size()];
+        const Flat_point from{a[x] - p[x], a[y] - p[y]}, to{b[x] - p[x], b[y] - p[y]};
+        if (turn(from, to) != 0 || from[0] * to[0] + from[1] * to[1] > 0) {
+          others.push_back({from, to});
+          continue;
+        }
+        for (const Flat_point& end : {from, to})
+          if (end != Flat_point{0, 0}) directions.push_back(end);
+      }
+  }
+  bool is_on_an_edge() const { return !directions.empty(); }
+  bool goes_along_an_edge(const Flat_point& way) const {
+    return std::any_of(directions.begin(), directions.end(),
+                       [&](const Flat_point& d) { return turn(d, way) == 0 && d[0] * way[0] + d[1] * way[1] > 0; });
+  }
+  /// Whether what is next to the point in a direction is inside: an odd number of edges is beyond it.
+  bool is_inside(const Flat_point& way) const {
+    // 1. A point on the way there, before any other edge.
+    Rational before = 1;
+    for (const auto& [from, to] : others) {
+      const Flat_point edge{to[0] - from[0], to[1] - from[1]};
+      const Rational across = turn(way, edge);
+      if (across == 0) {
+        if (turn(way, from) == 0)
+          for (const Flat_point& end : {from, to}) {
+            const Rational s = (end[0] * way[0] + end[1] * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+            if (s > 0) before = std::min(before, s);
+          }
+        continue;
+      }
+      const Rational s = turn(from, edge) / across, share = turn(from, way) / across;
+      if (s > 0 && 0 <= share && share <= 1) before = std::min(before, s);
     }
-  return inside;
+    const Flat_point q{way[0] * before / 2, way[1] * before / 2};
+
+    // 2. Edges beyond it, of those from the point too.
+    bool inside = false;
+    const auto pass = [&](const Flat_point& a, const Flat_point& b) {
+      const Flat_point edge{b[0] - a[0], b[1] - a[1]}, to_q{q[0] - a[0], q[1] - a[1]};
+      if ((a[1] <= q[1]) != (b[1] <= q[1]) && (turn(edge, to_q) > 0) == (a[1] < b[1])) inside = !inside;
+    };
+    for (const auto& [from, to] : others) pass(from, to);
+    for (const Flat_point& d : directions) pass({0, 0}, d);
+    return inside;
+  }
+};
+
+/// Whether a point of the plane is inside, or on an edge beside which there is an inside: spikes hold nothing.
+bool holds(const Loops& loops, const Exact_point& normal, const Exact_point& p) {
+  const std::size_t across = normal[2] != 0 ? 2 : normal[1] != 0 ? 1 : 0;
+  const Edges_from edges(loops, (across + 1) % 3, (across + 2) % 3, p);
+  if (!edges.is_on_an_edge()) return edges.is_inside({1, 0});
+  // Between two neighbours among the directions, in less than half a turn, in half of one, or in more.
+  for (const Flat_point& d : edges.directions)
+    for (const Flat_point& e : edges.directions)
+      for (const Flat_point& way : {Flat_point{d[0] + e[0], d[1] + e[1]}, Flat_point{-d[0] - e[0], -d[1] - e[1]},
+                                    Flat_point{-d[1], d[0]}, Flat_point{d[1], -d[0]}})
+        if (way != Flat_point{0, 0} && !edges.goes_along_an_edge(way) && edges.is_inside(way)) return true;
+  return false;
 }
 
 void add_parts(Face_id face, const Loops& loops, const Exact_ray& ray, std::vector<Face_hit>& parts) {

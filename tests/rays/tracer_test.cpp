@@ -136,6 +136,28 @@ TEST(Trace, a_hole_lets_rays_through_but_not_along_its_edges) {
   EXPECT_EQ(hits(soup, {{-1, Rational(3, 2), 0}, {1, 0, 0}}), (Hits{{0, along, 1, 2}, {0, along, 3, 4}}));
 }
 
+TEST(Trace, spikes_and_what_joins_two_parts_of_a_face_are_met_by_nothing) {
+  Polygon_soup soup;
+  std::vector<Point_id> spiked, joined;
+  for (const auto& [x, y] : {std::pair{0, 0}, {0, -1}, {0, 3}, {-1, 0}}) spiked.push_back(soup.add_point(x, y, 0));
+  soup.add_face(spiked);
+  for (const auto& [x, y] : {std::pair{9, 0}, {7, 1}, {7, 0}, {5, 0}, {4, 0}, {5, -1}, {5, 0}, {7, 0}})
+    joined.push_back(soup.add_point(x, y, 0));
+  soup.add_face(joined);
+  const Rational half(1, 2);
+  const auto down = [&](const Rational& x, const Rational& y) { return hits(soup, {{x, y, 1}, {0, 0, -1}}).size(); };
+  EXPECT_EQ(down(0, -half), 0u);
+  EXPECT_EQ(down(0, -1), 0u);
+  EXPECT_EQ(down(0, 0), 1u);
+  EXPECT_EQ(down(0, half), 1u);
+  EXPECT_EQ(down(-half, 0), 1u);
+  EXPECT_EQ(down(7, half), 1u);
+  EXPECT_EQ(down(5, -half), 1u);
+  EXPECT_EQ(down(6, 0), 0u) << "between the parts";
+  EXPECT_EQ(down(7, 0), 1u);
+  EXPECT_EQ(hits(soup, {{half * 13, 0, 0}, {1, 0, 0}}), (Hits{{1, along, half, half * 5}}));
+}
+
 TEST(Trace, a_direction_must_not_be_zero) {
   const Scene scene{Polygon_soup()};
   const Ray_tracer tracer(scene);
@@ -219,6 +241,88 @@ TEST(Trace, faces_closer_than_doubles_tell_are_ordered_exactly) {
   EXPECT_EQ(tracer.nearest(up, open, counters).face, 0u);
   EXPECT_EQ(counters.exact_orders, 2u);
   EXPECT_EQ(hits(soup, up.exact()), (Hits{{0, back, 2, 2}, {1, back, 2 + gap, 2 + gap}}));
+}
+
+/// The six faces of a box at `low`; beside it a triangle of 2^-bits, which makes coordinates longer than machine
+/// numbers.
+Polygon_soup box(const Exact_point& low, const Rational& size, int bits = 0) {
+  Polygon_soup soup;
+  for (int i = 0; i < 8; ++i)
+    soup.add_point(low[0] + (i & 1) * size, low[1] + (i >> 1 & 1) * size, low[2] + (i >> 2) * size);
+  for (const std::array<Point_id, 4>& face :
+       {std::array<Point_id, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+    soup.add_face({face.begin(), face.end()});
+  if (bits > 0) {
+    const Rational aside = low[0] - 9, little = Rational(1) / Rational(Integer(1) << bits);
+    soup.add_face({soup.add_point(aside, aside, aside), soup.add_point(aside + little, aside, aside),
+                   soup.add_point(aside, aside + little, aside)});
+  }
+  return soup;
+}
+
+TEST(Trace, faces_that_share_what_is_met_are_tied_without_their_parameters) {
+  struct Case {
+    Exact_point low;
+    Rational size;
+    int bits;
+  };
+  // Machine numbers without a division; a grid in thirds; the same farther away; numbers too long for machines.
+  const Rational third(1, 3);
+  for (const Case& c :
+       {Case{{0, 0, 0}, 1, 0}, {{third, 0, -third}, third, 0}, {{1000, 1, 7}, 1, 0}, {{0, 0, 0}, 1, 70}}) {
+    const Polygon_soup soup = box(c.low, c.size, c.bits);
+    const Scene scene(soup);
+    const Ray_tracer tracer(scene);
+    for (std::uint32_t target = 0; target < 27; ++target) {  // corners, middles of edges and of faces, the middle
+      Exact_ray ray{{c.low[0] - 3, c.low[1] - 5, c.low[2] - 7}, {}};
+      const std::array<std::uint32_t, 3> at{target % 3, target / 3 % 3, target / 9};
+      for (std::size_t k = 0; k < 3; ++k) ray.direction[k] = c.low[k] + at[k] * c.size / 2 - ray.origin[k];
+      Double_ray doubles;
+      bool is_double = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        doubles.origin[k] = nearest_double(ray.origin[k]);
+        doubles.direction[k] = nearest_double(ray.direction[k]);
+        is_double =
+            is_double && exact(doubles.origin[k]) == ray.origin[k] && exact(doubles.direction[k]) == ray.direction[k];
+      }
+      if (!is_double) ray = doubles.exact();
+      Ray_counters counters, exactly;
+      const Ray_tracer::Nearest near = tracer.nearest(doubles, open, counters);
+      const Hits first = tracer.first(ray, open, exactly);
+      ASSERT_EQ(first.empty(), near.face == Ray_tracer::Nearest::nothing);
+      if (first.empty()) continue;
+      EXPECT_EQ(near.face, first.front().face);
+      EXPECT_EQ(near.side, first.front().side);
+      EXPECT_EQ(near.tied, first.size() > 1);
+      EXPECT_LE(exact(near.low), first.front().t);
+      EXPECT_GE(exact(near.high), first.front().t);
+      const bool meets_corner_or_edge = (at[0] == 1) + (at[1] == 1) + (at[2] == 1) < 2;
+      EXPECT_TRUE(is_double || !meets_corner_or_edge || c.size != 1);
+      if (near.tied && meets_corner_or_edge) EXPECT_EQ(counters.exact_orders, 0u) << target;
+      if (near.tied) EXPECT_EQ(exactly.exact_orders, 1u) << target;
+    }
+  }
+}
+
+/// Of a corner between two edges in line the line may meet both edges' line, and not the corner.
+TEST(Trace, faces_that_meet_a_line_at_different_places_of_one_edge_are_told_apart) {
+  Polygon_soup soup;
+  const Point_id p = soup.add_point(0, 0, 0), q = soup.add_point(2, 0, 0), r = soup.add_point(4, 0, 0),
+                 s = soup.add_point(4, 4, 0), u = soup.add_point(4, 4, 1);
+  soup.add_face({p, q, r, s});
+  soup.add_face({p, q, r, u});
+  soup.add_face({p, r, u});
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  for (const double x : {0.0, 1.0, 2.0, 3.0, 4.0}) {
+    Ray_counters counters;
+    const Double_ray ray{{x + 1, -1, 5}, {-1, 1, -5}};
+    const Ray_tracer::Nearest near = tracer.nearest(ray, open, counters);
+    const Hits first = hits(soup, ray.exact());
+    EXPECT_EQ(first.size(), 3u);
+    EXPECT_EQ(near.face, 0u);
+    EXPECT_TRUE(near.tied);
+  }
 }
 
 TEST(Trace, scenes_smaller_than_the_least_double_are_met_exactly) {
