@@ -5,7 +5,7 @@ if(NOT SIGHTLINE_TESTS OR NOT SIGHTLINE_APPS OR SIGHTLINE_SANITIZE OR (CMAKE_UNI
   return()
 endif()
 # By clang what calls them in the same unit calls the library's own. (-fsemantic-interposition makes the library ten times as slow.)
-set_source_files_properties(algorithms/priority/rounded_plane.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(algorithms/priority/rounded_plane.cpp io/off.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 include(tests/faults/plant.cmake)
 set(sample_list tests/faults/sample.json CACHE FILEPATH "The mutants of the test faults.sample")
 mark_as_advanced(sample_list)
