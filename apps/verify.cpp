@@ -138,6 +138,7 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
 
   // 1. Cell by cell.
   std::vector<Cell_of_level> level;
+  Level_cell_checker checker(soup, options);
   for (const Cell_entry& entry : cells) level.push_back({entry.cell, entry.statement.walls, true, {}});
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     progress(i, chosen.size());
@@ -147,7 +148,7 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
     const Weak_certificate* const claim = std::get_if<Weak_certificate>(&certificate);
     if (claim == nullptr)
       throw Input_error::of_file(entry.file, "is no certificate of weak visibility; write the folder again");
-    const Verdict verdict = verify_level_cell(soup, entry.statement, *claim, options);
+    const Verdict verdict = checker.check(entry.statement, *claim);
     if (!verdict.accepted) rejected.push_back({{"cell", entry.cell}, {"file", entry.file}, {"why", verdict.why}});
     else level[chosen[i]].sources = claim->sources;
   }

@@ -277,13 +277,16 @@ void Contents::take_part(const Json& entry, const At& at) {
   visible_.parts.push_back(std::move(part));
 }
 
-/// {fragment, source, proof}.
+/// {fragment, source, proof}, also more fragments.
 void Contents::take_hidden(const Json& entry, const At& at) {
   Weak_certificate::Hidden hidden;
   hidden.fragment = number32(member(entry, "fragment", at), at + ".fragment");
   hidden.source = number32(member(entry, "source", at), at + ".source");
   for (const Json& step : array(member(entry, "proof", at), at + ".proof"))
     hidden.proof.push_back(node(step, (at + ".proof")[hidden.proof.size()]));
+  if (entry.contains("also"))
+    for (const Json& number : array(entry["also"], at + ".also"))
+      hidden.also.push_back(number32(number, (at + ".also")[hidden.also.size()]));
   weak_.hidden.push_back(std::move(hidden));
 }
 
@@ -406,6 +409,8 @@ void Contents::check_weak() const {
     const Weak_certificate::Hidden& hidden = weak_.hidden[k];
     const std::string at = entry_name("hidden", k);
     check_below(hidden.fragment, fragments, at + ".fragment");
+    for (std::size_t i = 0; i < hidden.also.size(); ++i)
+      if (hidden.also[i] >= fragments) check_below(hidden.also[i], fragments, entry_name(at + ".also", i));
     check_below(hidden.source, sources, at + ".source");
     for (std::size_t i = 0; i < hidden.proof.size(); ++i) {
       using Kind = Weak_certificate::Node::Kind;
@@ -469,10 +474,13 @@ Certificate Contents::finish(const std::vector<std::pair<std::string, std::optio
   if (!has("format")) fail("top level", "no \"format\"");
   const auto kind = std::find_if(kinds().begin(), kinds().end(), [&](const Kind& known) {
     const std::string begin = "sightline " + std::string(known.name) + ' ';
-    return format_ == begin + '1' || format_ == begin + '2';
+    return format_ == begin + '1' || format_ == begin + '2' || (known.name == "weak" && format_ == begin + '3');
   });
   if (kind == kinds().end())
-    fail("format", "expected \"sightline order 2\", or graph, see, weak or along in its place, or 1 in that of 2");
+    fail("format",
+         "expected \"sightline order 2\", or graph, see, weak or along in its place, or 1 in that of 2; or \"sightline "
+         "weak "
+         "3\"");
 
   // 2. Nothing is wrong below the keys that it has, and none is missing.
   std::vector<std::string_view> needed = {"fragments"}, known = {"points", "pieces", "set_aside"};

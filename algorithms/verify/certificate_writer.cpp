@@ -267,7 +267,7 @@ void write_certificate(std::ostream& out, const Visible_certificate& certificate
 }
 
 void write_certificate(std::ostream& out, const Weak_certificate& certificate) {
-  write_begin(out, "sightline weak 2");
+  write_begin(out, "sightline weak 3");
   write_covering(out, certificate);
   out << R"(,"sources":)";
   write_list(out, certificate.sources, [&](const std::vector<Exact_point>& source) { write(out, source); });
@@ -287,6 +287,10 @@ void write_certificate(std::ostream& out, const Weak_certificate& certificate) {
   write_list(out, certificate.hidden, [&](const Weak_certificate::Hidden& entry) {
     out << R"({"fragment":)" << entry.fragment << R"(,"source":)" << entry.source << R"(,"proof":)";
     write_list(out, entry.proof, [&](const Weak_certificate::Node& node) { write(out, node); });
+    if (!entry.also.empty()) {
+      out << R"(,"also":)";
+      write_numbers(out, std::span(entry.also));
+    }
     out << '}';
   });
   out << R"(,"undecided":)";

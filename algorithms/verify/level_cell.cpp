@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/verify/cell_walls.h>
 #include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/known_scene.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/weak_lines.h>
 
@@ -27,7 +28,10 @@ Homogeneous turned(const Homogeneous& plane) {
 }
 
 /// What is in front of all planes; no corners where that has no area.
-Corners within(Corners corners, const std::vector<Homogeneous>& planes) {
+Corners within(const Corners& whole, const std::vector<Homogeneous>& planes) {
+  const auto is_outside = [&](const Homogeneous& plane) { return !reaches(plane, whole, 1); };
+  if (std::any_of(planes.begin(), planes.end(), is_outside)) return {};  // as a rule, and nothing is copied for it
+  Corners corners = whole;
   for (const Homogeneous& plane : planes) {
     if (corners.empty()) break;
     corners = cut(corners, plane);
@@ -114,15 +118,11 @@ std::set<Face_id> check_walls(const std::vector<Outline>& walls, const std::vect
 }
 
 std::string check_cell(const Polygon_soup& soup, const Cell_statement& cell, const Weak_certificate& certificate,
-                       const Verify_options& options) {
-  // 0. The certificate is right, so its fragments are the scene.
-  if (certificate.sources.empty()) {
-    check_covering(soup, certificate, Workers(options, certificate.fragments.size()));
-  } else if (Verdict verdict = verify_weak(soup, certificate, options); !verdict.accepted) {
-    throw Rejection{std::move(verdict)};
-  }
-  std::vector<Outline> fragments, sources;
-  for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
+                       const weak_check::Known_scene& scene, const Verify_options& options) {
+  // 0. The certificate is right.
+  if (!certificate.sources.empty()) weak_check::check(soup, certificate, scene, options);
+  const std::vector<Outline>& fragments = scene.outlines();
+  std::vector<Outline> sources;
   for (const Polygon& source : certificate.sources) sources.emplace_back(source);
 
   // 1. to 4. The cell is one, and its portals are the sources.
@@ -148,7 +148,22 @@ namespace sightline {
 
 Verdict verify_level_cell(const Polygon_soup& soup, const Cell_statement& cell, const Weak_certificate& certificate,
                           const Verify_options& options) {
-  return certificate_check::verdict_of([&] { return level_check::check_cell(soup, cell, certificate, options); });
+  return Level_cell_checker(soup, options).check(cell, certificate);
+}
+
+Level_cell_checker::Level_cell_checker(const Polygon_soup& soup, Verify_options options)
+    : soup_(soup), options_(std::move(options)) {}
+Level_cell_checker::~Level_cell_checker() = default;
+
+Verdict Level_cell_checker::check(const Cell_statement& cell, const Weak_certificate& certificate) {
+  return certificate_check::verdict_of([&] {
+    if (scene_ == nullptr || !scene_->is_of(certificate)) {
+      const certificate_check::Workers workers(options_, certificate.visible.size() + certificate.hidden.size());
+      scene_.reset();
+      scene_ = std::make_unique<const weak_check::Known_scene>(soup_, certificate, workers);
+    }
+    return level_check::check_cell(soup_, cell, certificate, *scene_, options_);
+  });
 }
 
 }  // namespace sightline

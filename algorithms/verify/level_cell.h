@@ -6,9 +6,14 @@
 #include <sightline/algorithms/verify/weak.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <memory>
 #include <vector>
 
 namespace sightline {
+
+namespace weak_check {
+class Known_scene;
+}
 
 /// What is said of a cell, beside the certificate of what can be seen from its portals.
 struct Cell_statement {
@@ -26,5 +31,22 @@ struct Cell_statement {
 /// verify_weak(), and walls times fragments. Exact: yes, without filters. Proof: P-88b
 Verdict verify_level_cell(const Polygon_soup& soup, const Cell_statement& cell, const Weak_certificate& certificate,
                           const Verify_options& options = {});
+
+/// The same for one cell of a level after the other: what certificates say of the scene, if the one before said the
+/// same, is not checked again. Not thread-safe. Exact: yes
+class Level_cell_checker {
+ public:
+  /// Pre: the soup outlives it.
+  explicit Level_cell_checker(const Polygon_soup& soup, Verify_options options = {});
+  Level_cell_checker(Polygon_soup&&, Verify_options = {}) = delete;
+  ~Level_cell_checker();
+
+  Verdict check(const Cell_statement& cell, const Weak_certificate& certificate);
+
+ private:
+  const Polygon_soup& soup_;
+  Verify_options options_;
+  std::unique_ptr<const weak_check::Known_scene> scene_;
+};
 
 }  // namespace sightline

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/verify/weak.h>
 
 #include <sightline/algorithms/verify/boxes.h>
+#include <sightline/algorithms/verify/known_scene.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/weak_lines.h>
 #include <sightline/kernel/number.h>
@@ -33,8 +34,8 @@ constexpr std::size_t most_cuts = 1000;
 /// Checks sightlines against all fragments; those that are not near them are passed over.
 class Sightlines {
  public:
-  Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
-             const std::vector<Outline>& sources);
+  Sightlines(const Weak_certificate& certificate, const Known_scene& scene, const std::vector<Outline>& sources)
+      : certificate_(certificate), fragments_(scene.outlines()), sources_(sources), boxes_(scene.boxes()) {}
 
   /// Rejects unless nothing is between the end points, nor near them but what is in the plane of the source or of the
   /// fragment. Proof: P-72a, P-72b
@@ -47,18 +48,8 @@ class Sightlines {
 
   const Weak_certificate& certificate_;
   const std::vector<Outline>&fragments_, &sources_;
-  Boxes boxes_;
+  const Boxes& boxes_;
 };
-
-static std::vector<Outward_box> boxes_of(const std::vector<Order_fragment>& fragments) {
-  std::vector<Outward_box> boxes;
-  for (const Order_fragment& fragment : fragments) boxes.emplace_back(fragment.vertices);
-  return boxes;
-}
-
-Sightlines::Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
-                       const std::vector<Outline>& sources)
-    : certificate_(certificate), fragments_(fragments), sources_(sources), boxes_(boxes_of(certificate.fragments)) {}
 
 void Sightlines::check(std::size_t k) const {
   const auto& [fragment, source, from, to] = certificate_.visible[k];
@@ -120,11 +111,13 @@ class Trees {
 
   std::size_t leaves() const { return leaves_; }
 
-  /// Rejects unless the tree is one, and each of its leaves holds. `step` is called now and then.
-  /// Cost: linear in the nodes, each in the pairs of corners of a cell at most; no recursion. Proof: P-72c .. P-72f
+  /// Rejects unless the tree is one, and each of its leaves holds, of all fragments that it is said of. `step` is
+  /// called now and then. Cost: linear in the nodes, each in the pairs of corners of a cell at most; no recursion.
+  /// Proof: P-72c .. P-72f
   void check(std::size_t k, const std::function<void()>& step);
 
  private:
+  void check_for(std::size_t fragment, const std::vector<Node>& proof, const std::function<void()>& step);
   std::string entry() const {
     return name("hidden", entry_) + " (" + name("face", certificate_.fragments[fragment_].face) + ")";
   }
@@ -193,14 +186,20 @@ Trees::Trees(const Weak_certificate& certificate, const std::vector<Outline>& fr
 }
 
 void Trees::check(std::size_t k, const std::function<void()>& step) {
-  const auto& [fragment, source, proof] = certificate_.hidden[k];
-  if (fragment >= fragments_.size())
-    reject(name("hidden", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
+  const Weak_certificate::Hidden& hidden = certificate_.hidden[k];
   entry_ = k;
+  source_ = hidden.source;
+  if (!hidden.also.empty() && hidden.proof.size() != 1)
+    reject(name("hidden", k) + " is of several fragments, but its proof is not one leaf");
+  hidden.for_each_fragment([&](std::size_t fragment) { check_for(fragment, hidden.proof, step); });
+}
+
+void Trees::check_for(std::size_t fragment, const std::vector<Node>& proof, const std::function<void()>& step) {
+  if (fragment >= fragments_.size())
+    reject(name("hidden", entry_) + " names fragment " + std::to_string(fragment) + ", which there is not");
   fragment_ = fragment;
-  source_ = source;
-  if (source >= sources_.size())
-    reject(entry() + " names source " + std::to_string(source) + ", which there is not", {fragment});
+  if (source_ >= sources_.size())
+    reject(entry() + " names source " + std::to_string(source_) + ", which there is not", {fragment});
 
   /// The second part of an inner node, to be gone on with when the first is done.
   struct Second {
@@ -210,7 +209,7 @@ void Trees::check(std::size_t k, const std::function<void()>& step) {
     int sign;
   };
   std::vector<Second> waiting;
-  std::shared_ptr<Cell> cell = cell_of(std::make_shared<const Corners>(sources_[source].corners),
+  std::shared_ptr<Cell> cell = cell_of(std::make_shared<const Corners>(sources_[source_].corners),
                                        std::make_shared<const Corners>(fragments_[fragment].corners), 0);
   for (std::size_t i = 0;; ++i) {
     if (i == proof.size()) reject(entry() + " ends before each of its cells has a leaf", {fragment});
@@ -450,17 +449,14 @@ std::string described(const std::vector<Polygon>& sources) {
   return sources.size() > most ? text + " and " + std::to_string(sources.size() - most) + " more" : text;
 }
 
-/// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
-std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
-  // 1. The fragments are the scene, and the sources are convex polygons.
+}  // namespace
+
+// The certificate, step by step.
+std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Known_scene& scene,
+                  const Verify_options& options) {
+  // 1. The sources are convex polygons.
   const std::size_t total = certificate.visible.size() + certificate.hidden.size();
-  const Workers workers(options, total);
-  const Covered covered = check_covering(soup, certificate, workers);
-  std::vector<Outline> fragments;
-  for (const Order_fragment& fragment : certificate.fragments) {
-    workers.ask();
-    fragments.emplace_back(fragment.vertices);
-  }
+  const std::vector<Outline>& fragments = scene.outlines();
   const std::vector<Outline> sources = outlines_of_sources(certificate);
 
   // 2. What is said of fragments is true.
@@ -469,7 +465,7 @@ std::string check(const Polygon_soup& soup, const Weak_certificate& certificate,
     if (options.progress) options.progress(done, total);
   };
   Faces visible(soup.face_count());
-  const Sightlines sightlines(certificate, fragments, sources);
+  const Sightlines sightlines(certificate, scene, sources);
   for (std::size_t k = 0; k < certificate.visible.size(); ++k, ++done) {
     progress();
     sightlines.check(k);
@@ -479,8 +475,10 @@ std::string check(const Polygon_soup& soup, const Weak_certificate& certificate,
   Trees trees(certificate, fragments, sources);
   for (std::size_t k = 0; k < certificate.hidden.size(); ++k, ++done) {
     const auto& entry = certificate.hidden[k];
-    if (!hidden.insert({entry.fragment, entry.source}).second)
-      reject(name("hidden", k) + " is of the same fragment and source as one before", {entry.fragment});
+    entry.for_each_fragment([&](std::size_t fragment) {
+      if (!hidden.insert({fragment, entry.source}).second)
+        reject(name("hidden", k) + " is of the same fragment and source as one before", {fragment});
+    });
     trees.check(k, progress);
   }
   progress();
@@ -488,14 +486,16 @@ std::string check(const Polygon_soup& soup, const Weak_certificate& certificate,
   // 3. Each face that is drawn is visible, hidden or undecided, and only one of these.
   return check_faces(certificate, visible, hidden) + " from " + std::to_string(sources.size()) + " source polygons; " +
          std::to_string(trees.leaves()) + " leaves of proofs; " + (certificate.two_sided ? "both sides" : "fronts") +
-         " of faces, " + described(certificate.sources) + "; " + covered.text();
+         " of faces, " + described(certificate.sources) + "; " + scene.covered().text();
 }
 
-}  // namespace
 }  // namespace weak_check
 
 Verdict verify_weak(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
-  return certificate_check::verdict_of([&] { return weak_check::check(soup, certificate, options); });
+  return certificate_check::verdict_of([&] {
+    const certificate_check::Workers workers(options, certificate.visible.size() + certificate.hidden.size());
+    return weak_check::check(soup, certificate, weak_check::Known_scene(soup, certificate, workers), options);
+  });
 }
 
 }  // namespace sightline

@@ -54,6 +54,14 @@ struct Weak_certificate : Covering {
   struct Hidden {
     std::size_t fragment = 0, source = 0;
     std::vector<Node> proof;
+    std::vector<std::size_t> also = {};  ///< fragments of which a proof of one leaf holds as well
+
+    /// Calls visit(fragment) for the fragment, then for the others.
+    template <class Visit>
+    void for_each_fragment(const Visit& visit) const {
+      visit(fragment);
+      for (const std::size_t other : also) visit(other);
+    }
   };
   std::vector<Hidden> hidden;
 

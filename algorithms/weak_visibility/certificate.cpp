@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 namespace sightline {
@@ -22,6 +23,16 @@ Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vec
                  std::back_inserter(certificate.undecided));
   add_all(certificate, scene);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> numbers;
+  // Of each source what one fragment blocks, and what is away, is told at once.
+  std::map<std::tuple<std::uint32_t, Weak_step::Kind, std::uint32_t>, std::size_t> leaves;
+  const auto is_known = [&](const Weakly_visible::Pair& pair) {
+    const Weak_step& leaf = pair.answer.proof[0];
+    if (leaf.kind != Weak_step::Kind::away && leaf.kind != Weak_step::Kind::blocked) return false;
+    const std::uint32_t blocker = leaf.kind == Weak_step::Kind::blocked ? leaf.index : 0;
+    const auto [place, is_new] = leaves.try_emplace({pair.source, leaf.kind, blocker}, certificate.hidden.size());
+    if (!is_new) certificate.hidden[place->second].also.push_back(pair.piece);
+    return !is_new;
+  };
   for (const Weakly_visible::Pair& pair : found.pairs) {
     if (pair.answer.status == Weak_status::visible) {
       certificate.visible.push_back({pair.piece, pair.source, scene.position(pair.answer.sightline[0].exact),
@@ -34,6 +45,7 @@ Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vec
       if (is_new) certificate.lines.push_back({edge.piece, edge.corner});
       return place->second;
     };
+    if (pair.answer.proof.size() == 1 && is_known(pair)) continue;
     Weak_certificate::Hidden& hidden = certificate.hidden.emplace_back();
     hidden.fragment = pair.piece;
     hidden.source = pair.source;

@@ -145,12 +145,28 @@ Outcome of_a_cell(const Posed_scene& posed, const Level_cells& level, Cell_id ce
   const std::string name = "cell " + std::to_string(cell);
   const Verify_options one_thread{1, {}};
   Said truth = said_of(level, {cell});
-  const Verdict verdict = verify_level_cell(posed.soup, truth.cell, truth.certificate, one_thread);
+  Level_cell_checker checker(posed.soup, one_thread);
+  const Verdict verdict = checker.check(truth.cell, truth.certificate);
   if (!verdict.accepted) return Outcome::failed(name + " is refused: " + verdict.why);
   for (std::size_t k = 0; k < 6; ++k)
     if (const std::optional<Said> said = forged(level, cell, truth, random))
-      if (const Verdict lie = verify_level_cell(posed.soup, said->cell, said->certificate, one_thread); lie.accepted)
+      if (const Verdict lie = checker.check(said->cell, said->certificate); lie.accepted)
         return Outcome::failed(name + ": what is not true of it is accepted: " + lie.why);
+
+  // Who knows another scene says what one says who knows none.
+  Said other = truth;
+  std::vector<Order_fragment>& fragments = other.certificate.fragments;
+  if (fragments.empty()) return {};
+  const std::size_t place = random.below(fragments.size()), way = random.below(3);
+  if (way == 0) fragments.erase(fragments.begin() + static_cast<std::ptrdiff_t>(place));
+  if (way == 1) fragments[place].vertices[0][random.below(3)] += 1;
+  if (way == 2) std::swap(fragments[place], fragments[random.below(fragments.size())]);
+  for (const Said& said : {other, truth, other}) {
+    const Verdict mine = checker.check(said.cell, said.certificate),
+                  anew = verify_level_cell(posed.soup, said.cell, said.certificate, one_thread);
+    if (mine.accepted != anew.accepted || mine.why != anew.why)
+      return Outcome::failed(name + ": who knows the scene says " + mine.why + ", who does not " + anew.why);
+  }
   return {};
 }
 

@@ -476,11 +476,14 @@ inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) 
   }
   std::set<std::pair<std::size_t, std::size_t>> hidden;
   for (const Weak_certificate::Hidden& entry : claim.hidden) {
-    hidden.insert({entry.fragment, entry.source});
-    const Flat &source = sources[entry.source], &fragment = fragments[entry.fragment];
-    for (const Place& p : mixtures(source.corners))
-      for (const Place& q : mixtures(fragment.corners))
-        require(!looks(p, source, q, fragment) || !strictly_free(p, source, q, fragment), "what is hidden is not seen");
+    entry.for_each_fragment([&](std::size_t k) {
+      hidden.insert({k, entry.source});
+      const Flat &source = sources[entry.source], &fragment = fragments[k];
+      for (const Place& p : mixtures(source.corners))
+        for (const Place& q : mixtures(fragment.corners))
+          require(!looks(p, source, q, fragment) || !strictly_free(p, source, q, fragment),
+                  "what is hidden is not seen");
+    });
   }
   for (const Face_id face : claim.undecided) undecided[face] = true;
   for (std::size_t i = 0; i < fragments.size(); ++i) {

@@ -78,12 +78,13 @@ inline void add_beside(Along_certificate& claim, std::size_t k, const Order_frag
   claim.fragments.push_back(fragment);
 }
 inline void add_beside(Weak_certificate& claim, std::size_t k, const Order_fragment& fragment) {
-  for (std::size_t i = 0, entries = claim.hidden.size(); i < entries; ++i)
-    if (claim.hidden[i].fragment == k) {
-      Weak_certificate::Hidden entry = claim.hidden[i];
-      entry.fragment = claim.fragments.size();
-      claim.hidden.push_back(std::move(entry));
-    }
+  std::vector<Weak_certificate::Hidden> entries;
+  for (std::size_t i = 0; i < claim.hidden.size(); ++i)
+    claim.hidden[i].for_each_fragment([&](std::size_t fragment) {
+      if (fragment != k) return;
+      entries.push_back({claim.fragments.size(), claim.hidden[i].source, claim.hidden[i].proof});
+    });
+  claim.hidden.insert(claim.hidden.end(), entries.begin(), entries.end());
   claim.fragments.push_back(fragment);
 }
 

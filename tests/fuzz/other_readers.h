@@ -58,7 +58,8 @@ inline void require_named(const Weak_certificate& claim) {
   for (const auto& entry : claim.visible)
     require(entry.fragment < fragments && entry.source < sources, "a sightline is from a source to a fragment");
   for (const auto& entry : claim.hidden) {
-    require(entry.fragment < fragments && entry.source < sources, "a proof is of a fragment and a source");
+    require(entry.source < sources, "a proof is of a source");
+    entry.for_each_fragment([&](std::size_t k) { require(k < fragments, "a proof is of fragments that there are"); });
     for (const Weak_certificate::Node& node : entry.proof) {
       using Node = Weak_certificate::Node::Kind;
       require(node.kind != Node::line || node.index < lines, "a node is of a line that there is");
@@ -96,6 +97,11 @@ std::vector<Claim> naming_too_much(const Claim&) {
 }
 inline std::vector<Weak_certificate> naming_too_much(const Weak_certificate& claim) {
   std::vector<Weak_certificate> all;
+  for (std::size_t i = 0; i < claim.hidden.size() && all.empty(); ++i)
+    if (!claim.hidden[i].also.empty()) {
+      all.push_back(claim);
+      all.back().hidden[i].also.back() = claim.fragments.size();
+    }
   for (std::size_t i = 0; i < claim.hidden.size() && all.size() < 8; ++i)
     for (std::size_t k = 0; k < claim.hidden[i].proof.size() && all.size() < 8; ++k) {
       using Node = Weak_certificate::Node::Kind;

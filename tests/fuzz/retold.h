@@ -194,7 +194,7 @@ inline Weak_certificate::Form bisector(const Points& polygon) {
 inline void weaken(Weak_certificate& claim, Weak_certificate::Hidden& entry, Mutator& random) {
   using Node = Weak_certificate::Node;
   constexpr std::size_t most_nodes = 500;
-  if (entry.proof.empty() || entry.proof.size() > most_nodes) return;
+  if (entry.proof.empty() || entry.proof.size() > most_nodes || !entry.also.empty()) return;
   const auto has = [&](Node::Kind kind) {  // a part may have no inside on one side of such a cut
     return std::any_of(entry.proof.begin(), entry.proof.end(), [&](const Node& node) { return node.kind == kind; });
   };
@@ -218,6 +218,30 @@ inline void weaken(Weak_certificate& claim, Weak_certificate::Hidden& entry, Mut
   std::vector<Node> proof{root};
   for (int times = 0; times < 2; ++times) proof.insert(proof.end(), entry.proof.begin(), entry.proof.end());
   entry.proof = std::move(proof);
+}
+
+/// Fragments that one leaf hides, one by one; or two that the same leaf hides, together.
+inline void tell_apart(Weak_certificate& claim, Mutator& random) {
+  if (claim.hidden.empty()) return;
+  const std::size_t k = random.below(claim.hidden.size());
+  if (!claim.hidden[k].also.empty()) {
+    const std::size_t other = claim.hidden[k].also.back();
+    claim.hidden[k].also.pop_back();
+    claim.hidden.push_back(Weak_certificate::Hidden{other, claim.hidden[k].source, claim.hidden[k].proof});
+    return;
+  }
+  const Weak_certificate::Hidden mine = claim.hidden[k];
+  if (mine.proof.size() != 1) return;
+  for (std::size_t i = 0; i < claim.hidden.size(); ++i) {
+    auto& entry = claim.hidden[i];
+    if (i == k || entry.source != mine.source || entry.proof.size() != 1 || !mine.proof[0].terms.empty() ||
+        !entry.proof[0].terms.empty() || entry.proof[0].kind != mine.proof[0].kind ||
+        entry.proof[0].index != mine.proof[0].index)
+      continue;
+    entry.also.push_back(mine.fragment);
+    claim.hidden.erase(claim.hidden.begin() + static_cast<std::ptrdiff_t>(k));
+    return;
+  }
 }
 
 inline void retell(Along_certificate& claim, Mutator& random) {
@@ -246,6 +270,8 @@ inline void retell(Weak_certificate& claim, Mutator& random) {
       for (auto& line : claim.lines) line.fragment = becomes[line.fragment];
       for (auto& entry : claim.hidden) {
         entry.fragment = becomes[entry.fragment];
+        for (std::size_t& other : entry.also) other = becomes[other];
+        shuffle(entry.also, random);
         for (Node& node : entry.proof)
           if (node.kind == Node::Kind::blocked) node.index = becomes[node.index];
       }
@@ -271,8 +297,11 @@ inline void retell(Weak_certificate& claim, Mutator& random) {
     case 3: {  // a fragment in two, hidden by the same proof if that does not cut it
       const std::size_t k = random.below(claim.fragments.size());
       const auto is_of_it = [&](const auto& entry) { return entry.fragment == k; };
+      const auto hides_it = [&](const Weak_certificate::Hidden& entry) {
+        return is_of_it(entry) || std::find(entry.also.begin(), entry.also.end(), k) != entry.also.end();
+      };
       const auto cuts = [&](const Weak_certificate::Hidden& entry) {
-        return is_of_it(entry) && std::any_of(entry.proof.begin(), entry.proof.end(),
+        return hides_it(entry) && std::any_of(entry.proof.begin(), entry.proof.end(),
                                               [](const Node& node) { return node.kind == Node::Kind::cut_target; });
       };
       const auto names = [&](const Weak_certificate::Hidden& entry) {
@@ -290,14 +319,16 @@ inline void retell(Weak_certificate& claim, Mutator& random) {
       Order_fragment rest = claim.fragments[k];
       rest.vertices = other;
       for (std::size_t i = 0, entries = claim.hidden.size(); i < entries; ++i)
-        if (is_of_it(claim.hidden[i])) {
-          Weak_certificate::Hidden entry = claim.hidden[i];
-          entry.fragment = claim.fragments.size();
-          claim.hidden.push_back(std::move(entry));
+        if (hides_it(claim.hidden[i])) {
+          const Weak_certificate::Hidden& entry = claim.hidden[i];
+          const bool together = entry.proof.size() == 1 && random.below(2) == 0;
+          if (together) claim.hidden[i].also.push_back(claim.fragments.size());
+          else claim.hidden.push_back(Weak_certificate::Hidden{claim.fragments.size(), entry.source, entry.proof});
         }
       claim.fragments.push_back(std::move(rest));
     } break;
     case 4:
+      tell_apart(claim, random);
       for (auto& entry : claim.hidden)
         for (Node& node : entry.proof) {
           const Rational factor(static_cast<long>(1 + random.below(9)));

@@ -169,8 +169,26 @@ inline const std::vector<Lie<Weak_certificate>>& lies_in(const Weak_certificate&
           const std::size_t k = any_of_first(claim.visible, bytes);
           Claim::Hidden entry = claim.hidden[any_of_first(claim.hidden, bytes)];
           entry.fragment = claim.visible[k].fragment;
+          entry.also.clear();
           claim.hidden.push_back(std::move(entry));
           claim.visible.erase(claim.visible.begin() + static_cast<std::ptrdiff_t>(k));
+          return true;
+        }},
+       {"hidden with others",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          if (claim.visible.empty() || claim.hidden.empty()) return false;
+          const std::size_t k = any_of_first(claim.visible, bytes);
+          Claim::Hidden& entry = claim.hidden[any_of_first(claim.hidden, bytes)];
+          entry.also.push_back(claim.visible[k].fragment);
+          claim.visible.erase(claim.visible.begin() + static_cast<std::ptrdiff_t>(k));
+          return true;
+        }},
+       {"of others no more",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          if (claim.hidden.empty()) return false;
+          std::vector<std::size_t>& also = claim.hidden[any_of_first(claim.hidden, bytes)].also;
+          if (also.empty()) return false;
+          also.erase(also.begin() + static_cast<std::ptrdiff_t>(any_of_first(also, bytes)));
           return true;
         }},
        {"parts of a proof exchanged", exchange_parts_of_a_proof},

@@ -303,7 +303,7 @@ TEST(Certificate_json, of_what_polygons_can_see_is_read_back_and_judged_the_same
 
 TEST(Certificate_json, of_what_polygons_can_see_has_the_documented_keys) {
   const Json json = json_of(weak_test::skew_slit_both().certificate);
-  EXPECT_EQ(json["format"], "sightline weak 2");
+  EXPECT_EQ(json["format"], "sightline weak 3");
   EXPECT_EQ(json["sources"][0][1], (Json{"-1/100", "0", "0"}));
   EXPECT_EQ(json["lines"], Json::parse("[[1, 2], [2, 0]]"));
   EXPECT_EQ(json["hidden"][0]["fragment"], 0);
@@ -312,6 +312,13 @@ TEST(Certificate_json, of_what_polygons_can_see_has_the_documented_keys) {
       R"([["line",0],["line",1],["empty",[[0,"5/81",{"target":["1","0","0","1"]}],[1,"1",{"source":["0","1/100","0","1"]}]]],["blocked",2],["blocked",1]])";
   EXPECT_EQ(json["hidden"][0]["proof"], Json::parse(proof));
   EXPECT_EQ(json["hidden"][1]["proof"], Json::parse(R"([["away"]])"));
+  EXPECT_FALSE(json["hidden"][1].contains("also"));
+  weak_test::Weak_scene together = weak_test::all_away();
+  together.certificate.hidden = {{1, 0, {weak_test::away()}, {0, 2}}};
+  EXPECT_EQ(json_of(together.certificate)["hidden"],
+            Json::parse(R"([{"fragment":1,"source":0,"proof":[["away"]],"also":[0,2]}])"));
+  EXPECT_EQ(certificate_text(std::get<Weak_certificate>(read_any(certificate_text(together.certificate)))),
+            certificate_text(together.certificate));
   EXPECT_FALSE(json.contains("two_sided"));
   EXPECT_TRUE(json_of(weak_test::two_sided().certificate)["two_sided"]);
   const Json cuts = json_of(weak_test::two_sources().certificate);
@@ -343,7 +350,7 @@ TEST(Certificate_json, faults_in_what_polygons_can_see_are_named_with_their_plac
   EXPECT_EQ(fault("/more", "1"), "nothing");
   for (const char* optional : {"/undecided", "/pieces", "/set_aside"}) EXPECT_EQ(fault(optional, ""), "nothing");
   const std::vector<std::array<std::string, 3>> cases = {
-      {"/format", "\"sightline weak 3\"", "format: expected \"sightline order 2\", or graph, see, weak or along"},
+      {"/format", "\"sightline weak 4\"", "format: expected \"sightline order 2\", or graph, see, weak or along"},
       {"/sources", "", "top level: no \"sources\""},
       {"/sources", "7", "sources: expected an array"},
       {"/sources/1", "7", "sources[1]: expected an array"},
@@ -371,6 +378,9 @@ TEST(Certificate_json, faults_in_what_polygons_can_see_are_named_with_their_plac
       {"/hidden/1/fragment", "\"1\"", "hidden[1].fragment: expected an integer"},
       {"/hidden/1/fragment", "9", "hidden[1].fragment: expected a number below 5"},
       {"/hidden/1/source", "9", "hidden[1].source: expected a number below 2"},
+      {"/hidden/1/also", "3", "hidden[1].also: expected an array"},
+      {"/hidden/1/also", "[2, -3]", "hidden[1].also[1]: expected an integer"},
+      {"/hidden/1/also", "[2, 5]", "hidden[1].also[1]: expected a number below 5"},
       {"/hidden/1/proof", "", "hidden[1]: no \"proof\""},
       {"/hidden/1/proof", "{}", "hidden[1].proof: expected an array"},
       {"/hidden/1/proof/0", "3", "hidden[1].proof[0]: expected an array"},

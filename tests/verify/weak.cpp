@@ -317,12 +317,46 @@ TEST(Weak_faces, are_each_accounted_for_once) {
   expect_accepted(scene, "1 faces visible, 2 hidden");
 }
 
+TEST(Weak_faces, are_hidden_together_by_one_leaf) {
+  Weak_scene scene = one_blocker();
+  Weak_scene more = scene;
+  const std::size_t behind = more.face({at(0, 0, 4), at(0, 1, 4), at(1, 1, 4), at(1, 0, 4)});
+  const std::size_t beside = more.face({at(99, 0, 4), at(99, 1, 4), at(100, 1, 4), at(100, 0, 4)});
+  more.certificate.hidden[0].also = {behind};
+  more.certificate.undecided = {static_cast<Face_id>(beside)};
+  expect_accepted(more, "0 faces visible, 3 hidden, 1 undecided");
+  // Each of them is checked.
+  Weak_scene wrong = more;
+  wrong.certificate.hidden[0].also = {behind, beside};
+  expect_rejected(wrong, "hidden 0 (face 3), node 0 is not blocked by fragment 1");
+  wrong = more;
+  wrong.certificate.hidden[1].also = {beside};
+  expect_rejected(wrong, "hidden 1 (face 3), node 0 is not away");
+  // Each is there, and once.
+  for (const std::size_t twice : {std::size_t{0}, behind}) {
+    wrong = more;
+    wrong.certificate.hidden[0].also = {behind, twice};
+    expect_rejected(wrong, "is of the same fragment and source as one before");
+  }
+  wrong = more;
+  wrong.certificate.hidden[0].also = {behind, 4};
+  expect_rejected(wrong, "hidden 0 names fragment 4, which there is not");
+  // A tree is of one fragment.
+  wrong = more;
+  wrong.certificate.lines.push_back({1, 0});
+  wrong.certificate.hidden[0].proof = {side_of(0), blocked(1), blocked(1)};
+  expect_rejected(wrong, "hidden 0 is of several fragments, but its proof is not one leaf");
+  wrong.certificate.hidden[0].also.clear();
+  wrong.certificate.undecided.push_back(static_cast<Face_id>(behind));
+  expect_accepted(wrong, "0 faces visible, 2 hidden, 2 undecided");
+}
+
 TEST(Weak_faces, are_hidden_with_all_fragments_from_all_sources) {
   const Weak_scene whole = two_sources();
   for (std::size_t k = 0; k < whole.certificate.hidden.size(); ++k) {
     Weak_scene scene = whole;
     scene.certificate.hidden.erase(scene.certificate.hidden.begin() + static_cast<std::ptrdiff_t>(k));
-    const auto& [fragment, source, proof] = whole.certificate.hidden[k];
+    const std::size_t fragment = whole.certificate.hidden[k].fragment, source = whole.certificate.hidden[k].source;
     expect_rejected(scene, "is neither visible nor undecided, and fragment " + std::to_string(fragment) +
                                " of it is not shown to be hidden from source " + std::to_string(source));
     scene.certificate.undecided.push_back(whole.certificate.fragments[fragment].face);

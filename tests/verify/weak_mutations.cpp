@@ -15,15 +15,14 @@ class Damage {
 
   /// Does one thing to the certificate, and says which kind it was; empty if there was nothing to do it to.
   std::string once() {
-    static constexpr std::array kinds = {&Damage::leafs_face,   &Damage::multiplier,      &Damage::order_of_children,
-                                         &Damage::end_point,    &Damage::plane,  // twice as often as the others
-                                         &Damage::leafs_face,   &Damage::multiplier,      &Damage::order_of_children,
-                                         &Damage::end_point,    &Damage::plane,           &Damage::node_lost,
-                                         &Damage::node_doubled, &Damage::nodes_line,      &Damage::line,
-                                         &Damage::nodes_kind,   &Damage::source_vertex,   &Damage::source_turned,
-                                         &Damage::entrys_index, &Damage::entry_lost,      &Damage::two_sided,
-                                         &Damage::undecided,    &Damage::fragment_vertex, &Damage::multipliers_form,
-                                         &Damage::term_lost};
+    static constexpr std::array kinds = {
+        &Damage::leafs_face,   &Damage::multiplier,      &Damage::order_of_children, &Damage::end_point,
+        &Damage::plane,  // twice as often as the others
+        &Damage::leafs_face,   &Damage::multiplier,      &Damage::order_of_children, &Damage::end_point,
+        &Damage::plane,        &Damage::node_lost,       &Damage::node_doubled,      &Damage::nodes_line,
+        &Damage::line,         &Damage::nodes_kind,      &Damage::source_vertex,     &Damage::source_turned,
+        &Damage::entrys_index, &Damage::others,          &Damage::entry_lost,        &Damage::two_sided,
+        &Damage::undecided,    &Damage::fragment_vertex, &Damage::multipliers_form,  &Damage::term_lost};
     return (this->*kinds[below(kinds.size())])();
   }
 
@@ -172,6 +171,12 @@ class Damage {
       c.visible[0].fragment = below(c.fragments.size() + 1);
     }
     return "entry's index";
+  }
+  std::string others() {
+    auto& entry = c.hidden[below(c.hidden.size())];
+    if (!entry.also.empty() && below(2) == 0) entry.also.pop_back();
+    else entry.also.push_back(below(c.fragments.size() + 1));
+    return "others";
   }
   std::string entry_lost() {
     if (!c.visible.empty() && below(2) == 0) c.visible.pop_back();

@@ -423,7 +423,12 @@ struct Judge {
     for (const auto& v : c.visible)
       for (int k = 0; k < 8; ++k)
         if (!holds(v, k == 0 ? Rational(0) : tiny(200), dice)) return "not a sightline";
+    std::vector<Weak_certificate::Hidden> hidden;  // one fragment each
     for (const auto& entry : c.hidden)
+      entry.for_each_fragment([&](std::size_t fragment) {
+        hidden.push_back({fragment, entry.source, entry.proof, {}});
+      });
+    for (const auto& entry : hidden)
       for (int k = 0; k < shots; ++k) {
         const Exact_point p = random_inside(c.sources[entry.source], dice),
                           q = random_inside(c.fragments[entry.fragment].vertices, dice);
@@ -443,10 +448,10 @@ struct Judge {
         const Face_id f = c.fragments[i].face;
         const bool visible = std::any_of(c.visible.begin(), c.visible.end(),
                                          [&](const auto& v) { return c.fragments[v.fragment].face == f; });
-        const bool hidden = std::any_of(c.hidden.begin(), c.hidden.end(),
-                                        [&](const auto& h) { return h.fragment == i && h.source == s; });
+        const bool is_hidden =
+            std::any_of(hidden.begin(), hidden.end(), [&](const auto& h) { return h.fragment == i && h.source == s; });
         const auto undecided = std::count(c.undecided.begin(), c.undecided.end(), f);
-        if (undecided > 1 || (undecided == 1 && visible) || (undecided == 0 && !visible && !hidden))
+        if (undecided > 1 || (undecided == 1 && visible) || (undecided == 0 && !visible && !is_hidden))
           return "a face is not accounted for once";
       }
     return "";
