@@ -231,6 +231,11 @@ TEST(Verify_along, moments_that_are_none) {
   refused(no_root, with_moment({{-1, 2, 0}, ratio(1, 4), ratio(3, 4)}));            // linear
   refused(no_root, with_moment({{3, -16, 16}, ratio(1, 8), ratio(7, 8)}));          // two roots
   refused(no_root, with_moment({{ratio(-1, 2), 0, 1}, ratio(3, 4), ratio(1, 2)}));  // ends exchanged
+  const Rational halves(Integer(2), Integer(4));                                    // not in lowest terms
+  const auto not_canonical = "moment 1 is not in canonical numbers";
+  refused(not_canonical, with_moment({{}, halves, ratio(1, 2)}));
+  refused(not_canonical, with_moment({{}, ratio(1, 2), halves}));
+  refused(not_canonical, with_moment({{Rational(-halves), 0, 1}, ratio(1, 2), ratio(3, 4)}));
   refused("moment 1 is not told to be after the one before it", with_moment({{ratio(-1, 2), 0, 1}, 0, ratio(3, 4)}));
   refused("moment 2 is not told to be after", with_moment(Walls::rational(2)));
   refused("the moments do not go from 0 to 1",

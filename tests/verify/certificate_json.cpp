@@ -92,6 +92,9 @@ TEST(Certificate_json, what_is_written_is_read_back) {
   EXPECT_TRUE(verify_order(scene.soup, again).accepted);
   EXPECT_EQ(certificate_text(again), certificate_text(scene.certificate));
   EXPECT_FALSE(again.on_view);
+  Order_certificate odd = scene.certificate;
+  odd.set_aside[0].why = "said \"so\", by C:\\it\n\tand \x01";
+  EXPECT_EQ(read(certificate_text(odd)).set_aside[0].why, odd.set_aside[0].why);
   Order_certificate on_view = scene.certificate;
   on_view.on_view = true;
   EXPECT_TRUE(read(certificate_text(on_view)).on_view);

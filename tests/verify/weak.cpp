@@ -317,6 +317,22 @@ TEST(Weak_faces, are_each_accounted_for_once) {
   expect_accepted(scene, "1 faces visible, 2 hidden");
 }
 
+TEST(Weak_faces, are_told_with_the_first_sources) {
+  Weak_scene scene = one_blocker();
+  expect_accepted(scene, "from 1 source polygons; ");
+  expect_accepted(scene, ", source 0 (0, 0, 0) (1, 0, 0) (1, 1, 0) (0, 1, 0) looking to (0, 0, 1); ");
+  for (std::size_t source = 1; source < 5; ++source) {
+    scene.from(scene.certificate.sources[0]).hide(0, {blocked(1)}, source).hide(1, {away()}, source);
+    const std::string why = scene.verdict().why;
+    EXPECT_NE(why.find(", source " + std::to_string(std::min<std::size_t>(source, 2)) + " (0, 0, 0)"),
+              std::string::npos)
+        << why;
+    EXPECT_EQ(why.find("source 3 ("), std::string::npos) << why;
+    const std::string more = " and " + std::to_string(source - 2) + " more; ";
+    EXPECT_EQ(why.find(more) != std::string::npos, source > 2) << why;
+  }
+}
+
 TEST(Weak_faces, are_hidden_together_by_one_leaf) {
   Weak_scene scene = one_blocker();
   Weak_scene more = scene;
