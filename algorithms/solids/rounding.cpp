@@ -314,7 +314,7 @@ Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate,
 
 Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress,
                         std::size_t most_rounds) {
-  constexpr std::size_t aside_every = 3;
+  constexpr std::size_t aside_every = 3, most_crossing_each = 64, most_crossing = 10'000;
   Rounded_surface first = rounded(soup, to, triangulate, progress);
   if (first.is_sound()) return first;
   // The exact surface of each round, and of its faces which one of the first's each is a part of.
@@ -353,7 +353,12 @@ Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate,
       surface.rounds = round;
       return surface;
     }
-    // 3. What it winds round, exactly: it crosses nowhere, but has new points.
+    // 3. Where each round breaks much more than the one before it, the next would take out of proportion.
+    if (surface.crossing.size() > most_crossing + most_crossing_each * soup.face_count()) {
+      first.rounds = round;
+      return first;
+    }
+    // 4. What it winds round, exactly: it crosses nowhere, but has new points.
     now = resolved(surface.soup, progress);
     for (Face_id& face : now.face_of) face = surface.face_of[face];
   }

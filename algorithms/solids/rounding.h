@@ -56,12 +56,12 @@ inline constexpr std::size_t most_snap_rounds = 40;
 /// planar any more, the exact surface of what it winds round positively is made, whose new points, where faces crossed,
 /// are rounded in the next round, to a grid of the step that the numbers have at their greatest coordinate; every third
 /// round to one beside the nearest. Points that meet become one, and faces without two different neighbours vanish.
-/// Post: sound, or, after `most_rounds`, what rounded() returns, with that number of rounds. Each point before is at
-/// its nearest numbers, or no corner any more. Off `farthest` from the surface before, along each axis, what was inside
-/// is, and nothing else. Degenerate: what is thinner than the numbers' step vanishes, all of it perhaps: no faces then.
-/// Pre, Exact, `progress`: as above. Cost: that of rounded() and of a union, of coordinates of few digits, for each
-/// round. Ref: Lazard and Valque, Removing self-intersections in 3D meshes while preserving floating-point coordinates.
-/// Proof: P-117
+/// Post: sound, or, after `most_rounds`, or once more than 64 pairs of faces cross for each face there was, and 10,000,
+/// what rounded() returns, with the number of rounds made. Each point before is at its nearest numbers, or no corner
+/// any more. Off `farthest` from the surface before, along each axis, what was inside is, and nothing else. Degenerate:
+/// what is thinner than the numbers' step vanishes, all of it perhaps: no faces then. Pre, Exact, `progress`: as above.
+/// Cost: that of rounded() and of a union, of coordinates of few digits, for each round. Ref: Lazard and Valque,
+/// Removing self-intersections in 3D meshes while preserving floating-point coordinates. Proof: P-117
 Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate = false,
                         const Rounding_progress& progress = {}, std::size_t most_rounds = most_snap_rounds);
 
