@@ -371,7 +371,7 @@ void Ray_tracer::Search::look_at_face(Face_id face) {
 
 // ---- What was found
 
-/// Of s.
+/// Between which s what is met at t is.
 std::array<double, 2> Ray_tracer::Search::bounds(const Rational& t) const {
   if (ray_.blind) return {0, std::numeric_limits<double>::infinity()};
   Rational exact = ray_.shift ? Rational(t - *ray_.shift) : t;

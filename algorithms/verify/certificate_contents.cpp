@@ -453,14 +453,16 @@ void Contents::check_along() const {
 namespace {
 struct Kind {
   std::string_view name;
+  char newest;  ///< of its formats, which begin with 1
   std::vector<std::string_view> needed, optional;
 };
 const std::array<Kind, 5>& kinds() {
-  static const std::array<Kind, 5> all{{{"order", {"eye"}, {"on_view", "depths", "cuts"}},
-                                        {"graph", {"sizes", "arcs"}, {}},
-                                        {"see", {"eye", "parts", "empty"}, {"field", "rays"}},
-                                        {"weak", {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}},
-                                        {"along", {"path", "moments", "faces", "proofs"}, {"two_sided"}}}};
+  static const std::array<Kind, 5> all{
+      {{"order", '2', {"eye"}, {"on_view", "depths", "cuts"}},
+       {"graph", '2', {"sizes", "arcs"}, {}},
+       {"see", '2', {"eye", "parts", "empty"}, {"field", "rays"}},
+       {"weak", '3', {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}},
+       {"along", '2', {"path", "moments", "faces", "proofs"}, {"two_sided"}}}};
   return all;
 }
 
@@ -474,7 +476,8 @@ Certificate Contents::finish(const std::vector<std::pair<std::string, std::optio
   if (!has("format")) fail("top level", "no \"format\"");
   const auto kind = std::find_if(kinds().begin(), kinds().end(), [&](const Kind& known) {
     const std::string begin = "sightline " + std::string(known.name) + ' ';
-    return format_ == begin + '1' || format_ == begin + '2' || (known.name == "weak" && format_ == begin + '3');
+    return format_.size() == begin.size() + 1 && format_.starts_with(begin) && '1' <= format_.back() &&
+           format_.back() <= known.newest;
   });
   if (kind == kinds().end())
     fail("format",

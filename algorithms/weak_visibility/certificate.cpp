@@ -25,7 +25,8 @@ Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vec
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> numbers;
   // Of each source what one fragment blocks, and what is away, is told at once.
   std::map<std::tuple<std::uint32_t, Weak_step::Kind, std::uint32_t>, std::size_t> leaves;
-  const auto is_known = [&](const Weakly_visible::Pair& pair) {
+  const auto told_with_another = [&](const Weakly_visible::Pair& pair) {
+    if (pair.answer.proof.size() != 1) return false;
     const Weak_step& leaf = pair.answer.proof[0];
     if (leaf.kind != Weak_step::Kind::away && leaf.kind != Weak_step::Kind::blocked) return false;
     const std::uint32_t blocker = leaf.kind == Weak_step::Kind::blocked ? leaf.index : 0;
@@ -45,7 +46,7 @@ Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vec
       if (is_new) certificate.lines.push_back({edge.piece, edge.corner});
       return place->second;
     };
-    if (pair.answer.proof.size() == 1 && is_known(pair)) continue;
+    if (told_with_another(pair)) continue;
     Weak_certificate::Hidden& hidden = certificate.hidden.emplace_back();
     hidden.fragment = pair.piece;
     hidden.source = pair.source;

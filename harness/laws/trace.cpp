@@ -70,9 +70,8 @@ struct Edges_from {
     return std::any_of(directions.begin(), directions.end(),
                        [&](const Flat_point& d) { return turn(d, way) == 0 && d[0] * way[0] + d[1] * way[1] > 0; });
   }
-  /// Whether what is next to the point in a direction is inside: an odd number of edges is beyond it.
-  bool is_inside(const Flat_point& way) const {
-    // 1. A point on the way there, before any other edge.
+  /// Whether what is next to the point in a direction is inside: what is on the way there before any other edge.
+  bool is_inside_towards(const Flat_point& way) const {
     Rational before = 1;
     for (const auto& [from, to] : others) {
       const Flat_point edge{to[0] - from[0], to[1] - from[1]};
@@ -88,9 +87,10 @@ struct Edges_from {
       const Rational s = turn(from, edge) / across, share = turn(from, way) / across;
       if (s > 0 && 0 <= share && share <= 1) before = std::min(before, s);
     }
-    const Flat_point q{way[0] * before / 2, way[1] * before / 2};
-
-    // 2. Edges beyond it, of those from the point too.
+    return is_inside({way[0] * before / 2, way[1] * before / 2});
+  }
+  /// Whether a place, from the point, is inside: an odd number of edges is beyond it. Pre: it is on none.
+  bool is_inside(const Flat_point& q) const {
     bool inside = false;
     const auto pass = [&](const Flat_point& a, const Flat_point& b) {
       const Flat_point edge{b[0] - a[0], b[1] - a[1]}, to_q{q[0] - a[0], q[1] - a[1]};
@@ -106,13 +106,13 @@ struct Edges_from {
 bool holds(const Loops& loops, const Exact_point& normal, const Exact_point& p) {
   const std::size_t across = normal[2] != 0 ? 2 : normal[1] != 0 ? 1 : 0;
   const Edges_from edges(loops, (across + 1) % 3, (across + 2) % 3, p);
-  if (!edges.is_on_an_edge()) return edges.is_inside({1, 0});
+  if (!edges.is_on_an_edge()) return edges.is_inside({0, 0});
   // Between two neighbours among the directions, in less than half a turn, in half of one, or in more.
   for (const Flat_point& d : edges.directions)
     for (const Flat_point& e : edges.directions)
       for (const Flat_point& way : {Flat_point{d[0] + e[0], d[1] + e[1]}, Flat_point{-d[0] - e[0], -d[1] - e[1]},
                                     Flat_point{-d[1], d[0]}, Flat_point{d[1], -d[0]}})
-        if (way != Flat_point{0, 0} && !edges.goes_along_an_edge(way) && edges.is_inside(way)) return true;
+        if (way != Flat_point{0, 0} && !edges.goes_along_an_edge(way) && edges.is_inside_towards(way)) return true;
   return false;
 }
 
