@@ -13,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -100,16 +101,24 @@ Place nearest_place(const Exact_point& p, Rounding to) {
   return near;
 }
 
-/// A point of a grid near p, of which the step is that of the numbers at p's greatest coordinate: the nearest one, or,
-/// with a seed, one of those around p. Degenerate: a point of the grid stays.
-Place place_on_grid(const Exact_point& p, Rounding to, std::uint64_t seed) {
+/// The step that the numbers have at a point's greatest coordinate.
+int exponent_of_step(const Place& nearest, Rounding to) {
   double greatest = 0;
-  for (const double x : nearest_place(p, to)) greatest = std::max(greatest, std::fabs(x));
+  for (const double x : nearest) greatest = std::max(greatest, std::fabs(x));
   const int digits =
       to == Rounding::to_double ? std::numeric_limits<double>::digits : std::numeric_limits<float>::digits;
   const int least = to == Rounding::to_double ? -1074 : -149;
-  const int exponent = std::max(greatest == 0 ? least : std::ilogb(greatest) - digits + 1, least);
-  const Rational step = exact(std::ldexp(1.0, exponent));
+  return std::max(greatest == 0 ? least : std::ilogb(greatest) - digits + 1, least);
+}
+
+/// A point near p of the grid of step 2^exponent: the nearest one, or, with a seed, one of those around p, which the
+/// numbers hold. Degenerate: a point of the grid stays.
+Place place_on_grid(const Exact_point& p, int exponent, Rounding to, std::uint64_t seed) {
+  Rational step = 1;
+  if (exponent < 0) mpq_div_2exp(step.get_mpq_t(), step.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  if (exponent > 0) mpq_mul_2exp(step.get_mpq_t(), step.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  const Rational greatest = exact(to == Rounding::to_double ? std::numeric_limits<double>::max()
+                                                            : static_cast<double>(std::numeric_limits<float>::max()));
   Place place;
   for (std::size_t k = 0; k < 3; ++k) {
     const Rational steps = p[k] / step;
@@ -118,7 +127,8 @@ Place place_on_grid(const Exact_point& p, Rounding to, std::uint64_t seed) {
     Integer below;
     mpz_fdiv_q(below.get_mpz_t(), whole.get_num_mpz_t(), whole.get_den_mpz_t());
     if (!is_nearest && is_above && below != steps) ++below;
-    place[k] = nearest_double(step * below);
+    const Rational at = step * below;
+    place[k] = nearest_double(abs(at) > greatest ? Rational(step * (below - sgn(below))) : at);
   }
   return place;
 }
@@ -248,7 +258,8 @@ void add_misplaced(Rounded_surface& surface, const Rounding_progress& progress) 
       const int front = fragment.front.empty() ? 0 : fragment.front[0].number;
       int behind = front;
       for (const Result_fragment::Part& part : fragment.parts) behind += part.turned ? -1 : 1;
-      if (std::min(front, behind) != 0 || std::max(front, behind) != 1)
+      const bool is_border = std::min(front, behind) == 0 && std::max(front, behind) == 1;
+      if (!is_border || fragment.parts.size() > 1)
         for (const Result_fragment::Part& part : fragment.parts) faces.insert(part.face);
     }
   }
@@ -296,6 +307,65 @@ void add_changed_points(Rounded_surface& surface, const Polygon_soup& before, co
   }
 }
 
+/// The surface snapped to one grid in that many rounds at most, which are added to `rounds`; nothing where they were
+/// not enough, or each breaks more than the one before. `coarser`: 0 for the numbers' own grid, of which the step is
+/// that at each point's greatest coordinate; else one grid for all points, 2^coarser of the greatest such step.
+std::optional<Rounded_surface> snapped_to_grid(const Polygon_soup& soup, Rounding to, int coarser, bool triangulate,
+                                               const Rounding_progress& progress, std::size_t most_rounds,
+                                               std::size_t& rounds) {
+  constexpr std::size_t aside_every = 3, most_crossing_more = 4, most_crossing = 1000;
+  std::vector<Place> nearest;
+  int coarsest = std::numeric_limits<int>::min();
+  for (Point_id p = 0; p < soup.point_count(); ++p) {
+    nearest.push_back(nearest_place(soup.point(p), to));
+    coarsest = std::max(coarsest, exponent_of_step(nearest[p], to));
+  }
+  // The exact surface of each round, and of its faces which one of the first's each is a part of.
+  Hole_free now{soup, std::vector<Face_id>(soup.face_count())};
+  std::iota(now.face_of.begin(), now.face_of.end(), Face_id{0});
+  std::set<Face_id> not_planar;
+  Rational farthest;
+  std::size_t crossing_first = 0;
+  for (std::size_t round = 1; round <= most_rounds; ++round) {
+    ++rounds;
+    // 1. Points get places. The numbers' own grid leaves the first ones at the nearest numbers; all others go to one of
+    // the grid, now and then beside the nearest, lest the same comes again and again.
+    std::vector<Place> places;
+    const bool aside = round > aside_every && round % aside_every == 0;
+    for (Point_id p = 0; p < now.soup.point_count(); ++p) {
+      const Exact_point at = now.soup.point(p);
+      places.push_back(nearest_place(at, to));
+      const int exponent = coarser == 0 ? exponent_of_step(places[p], to) : coarsest + coarser;
+      if (coarser > 0 || (round > 1 && !is_at(at, places[p])))
+        places[p] = place_on_grid(at, exponent, to, aside ? mixed(std::uint64_t{p} << 32 | round) : 0);
+    }
+    farthest += farthest_step(now.soup, places);
+    // 2. What that breaks.
+    Rounded_surface surface = surface_at(now.soup, places, triangulate, true, progress);
+    for (const Face_id face : surface.not_planar) not_planar.insert(now.face_of[face]);
+    add_crossing(surface, now.soup, progress);
+    add_misplaced(surface, progress);
+    const std::size_t crossing = surface.crossing.size();
+    const bool is_sound = surface.is_sound();
+    if (!is_sound && crosses_itself(surface.soup)) surface = surface_at(now.soup, places, true, true, progress);
+    for (Face_id& face : surface.face_of) face = now.face_of[face];
+    if (is_sound) {
+      surface.farthest = double_above(farthest);
+      surface.not_planar.assign(not_planar.begin(), not_planar.end());
+      add_turned(surface, soup);
+      add_changed_points(surface, soup, nearest);
+      return surface;
+    }
+    // 3. Where rounds break more and more, the next would take out of proportion.
+    if (round == 1) crossing_first = crossing;
+    if (crossing > most_crossing + most_crossing_more * crossing_first) return std::nullopt;
+    // 4. What it winds round, exactly: it crosses nowhere, but has new points.
+    now = resolved(surface.soup, progress);
+    for (Face_id& face : now.face_of) face = surface.face_of[face];
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress) {
@@ -314,56 +384,20 @@ Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate,
 
 Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress,
                         std::size_t most_rounds) {
-  constexpr std::size_t aside_every = 3, most_crossing_each = 64, most_crossing = 10'000;
   Rounded_surface first = rounded(soup, to, triangulate, progress);
   if (first.is_sound()) return first;
-  // The exact surface of each round, and of its faces which one of the first's each is a part of.
-  Hole_free now{soup, std::vector<Face_id>(soup.face_count())};
-  std::iota(now.face_of.begin(), now.face_of.end(), Face_id{0});
-  std::vector<Place> nearest;
-  std::set<Face_id> not_planar;
-  Rational farthest;
-  for (std::size_t round = 1; round <= most_rounds; ++round) {
-    // 1. Points get places: the first ones the nearest numbers, which stay; new ones of a grid, now and then beside the
-    // nearest, lest the same comes again and again.
-    std::vector<Place> places;
-    const bool aside = round > aside_every && round % aside_every == 0;
-    for (Point_id p = 0; p < now.soup.point_count(); ++p) {
-      const Exact_point at = now.soup.point(p);
-      places.push_back(nearest_place(at, to));
-      if (round > 1 && !is_at(at, places[p]))
-        places[p] = place_on_grid(at, to, aside ? mixed(std::uint64_t{p} << 32 | round) : 0);
-    }
-    if (round == 1) nearest = places;
-    farthest += farthest_step(now.soup, places);
-    // 2. What that breaks.
-    Rounded_surface surface = surface_at(now.soup, places, triangulate, true, progress);
-    for (const Face_id face : surface.not_planar) not_planar.insert(now.face_of[face]);
-    add_crossing(surface, now.soup, progress);
-    add_misplaced(surface, progress);
-    const bool is_sound = surface.is_sound();
-    if (!is_sound && crosses_itself(surface.soup)) surface = surface_at(now.soup, places, true, true, progress);
-    for (Face_id& face : surface.face_of) face = now.face_of[face];
-    if (is_sound) {
-      surface.moved = first.moved;
-      surface.farthest = double_above(farthest);
-      surface.not_planar.assign(not_planar.begin(), not_planar.end());
-      add_turned(surface, soup);
-      add_changed_points(surface, soup, nearest);
-      surface.rounds = round;
-      return surface;
-    }
-    // 3. Where each round breaks much more than the one before it, the next would take out of proportion.
-    if (surface.crossing.size() > most_crossing + most_crossing_each * soup.face_count()) {
-      first.rounds = round;
-      return first;
-    }
-    // 4. What it winds round, exactly: it crosses nowhere, but has new points.
-    now = resolved(surface.soup, progress);
-    for (Face_id& face : now.face_of) face = surface.face_of[face];
+  // It ends: once the step is more than twice the greatest coordinate, all points are one, and no face is left.
+  constexpr int coarser_each = 4;
+  std::size_t rounds = 0;
+  for (int coarser = 0;; coarser += coarser_each) {
+    std::optional<Rounded_surface> surface =
+        snapped_to_grid(soup, to, coarser, triangulate, progress, most_rounds, rounds);
+    if (!surface) continue;
+    surface->moved = first.moved;
+    surface->rounds = rounds;
+    surface->coarser = coarser;
+    return *std::move(surface);
   }
-  first.rounds = most_rounds;
-  return first;
 }
 
 }  // namespace sightline

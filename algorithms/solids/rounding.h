@@ -26,9 +26,10 @@ struct Rounded_surface {
   /// there, though of those one only stood upon the other; a face that crosses itself is a pair.
   std::vector<std::pair<Face_id, Face_id>> crossing;
   /// Where none of these two is: faces of which not the one side is wound round once and the other not at all, as where
-  /// a thin solid is turned inside out and no normal is, or its two sides lie upon each other.
+  /// a thin solid is turned inside out and no normal is, or which lie upon others.
   std::vector<Face_id> misplaced;
   std::size_t rounds = 0;          ///< of snapping
+  int coarser = 0;                 ///< of snapping: its grid's step is 2^coarser of the numbers'
   std::vector<Point_id> vanished;  ///< by snapping: points before, at whose nearest numbers no corner is
   std::vector<Point_id> added;     ///< by snapping: the surface's points that are nearest to none before
 
@@ -49,19 +50,21 @@ using Rounding_progress = std::function<void(std::size_t done, std::size_t total
 Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate = false,
                         const Rounding_progress& progress = {});
 
-/// Far more than any surface has taken that was tried.
+/// On one grid. Twice as many as any surface has taken that was tried, unless they broke more and more.
 inline constexpr std::size_t most_snap_rounds = 40;
 
 /// Rounds likewise; where that is not sound, snaps, in rounds: of the rounded surface, in triangles where faces are not
 /// planar any more, the exact surface of what it winds round positively is made, whose new points, where faces crossed,
 /// are rounded in the next round, to a grid of the step that the numbers have at their greatest coordinate; every third
 /// round to one beside the nearest. Points that meet become one, and faces without two different neighbours vanish.
-/// Post: sound, or, after `most_rounds`, or once more than 64 pairs of faces cross for each face there was, and 10,000,
-/// what rounded() returns, with the number of rounds made. Each point before is at its nearest numbers, or no corner
-/// any more. Off `farthest` from the surface before, along each axis, what was inside is, and nothing else. Degenerate:
-/// what is thinner than the numbers' step vanishes, all of it perhaps: no faces then. Pre, Exact, `progress`: as above.
-/// Cost: that of rounded() and of a union, of coordinates of few digits, for each round. Ref: Lazard and Valque,
-/// Removing self-intersections in 3D meshes while preserving floating-point coordinates. Proof: P-117
+/// Where `most_rounds` are not enough, or one breaks more than four times as many pairs of faces as the first, and
+/// 1,000, the surface is snapped anew, all its points to one grid 16 times as coarse, and so on.
+/// Post: sound. Each point before is at its nearest numbers, or no corner any more, unless the grid is `coarser`; then
+/// all points are of one grid. Off `farthest` from the surface before, along each axis, what was inside is, and nothing
+/// else. Degenerate: what is thinner than the grid's step vanishes, all of it perhaps: no faces then. Pre, Exact,
+/// `progress`: as above; most_rounds > 0. Cost: that of rounded() and of a union, of coordinates of few digits, for
+/// each round. Ref: Lazard and Valque, Removing self-intersections in 3D meshes while preserving floating-point
+/// coordinates. Proof: P-117
 Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate = false,
                         const Rounding_progress& progress = {}, std::size_t most_rounds = most_snap_rounds);
 

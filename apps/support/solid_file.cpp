@@ -72,7 +72,7 @@ Json rounding_json(const Rounded_surface& near, const Polygon_soup& soup) {
   return {{"moved", near.moved},         {"farthest", near.farthest},   {"not_planar", near.not_planar},
           {"turned", near.turned},       {"collapsed", near.collapsed}, {"crossing", std::move(crossing)},
           {"misplaced", near.misplaced}, {"rounds", near.rounds},       {"vanished", std::move(vanished)},
-          {"added", std::move(added)},   {"sound", near.is_sound()}};
+          {"added", std::move(added)},   {"coarser", near.coarser},     {"sound", near.is_sound()}};
 }
 
 std::string rounding_text(const Rounded_surface& near) {
@@ -80,13 +80,13 @@ std::string rounding_text(const Rounded_surface& near) {
                                  near.farthest, near.not_planar.size());
   if (!near.turned.empty()) text += fmt::format("; {} turned over", near.turned.size());
   if (!near.is_sound())
-    text += fmt::format(
-        "; {} without area, {} pairs cross that did not, {} inside out: {}write .qoff", near.collapsed.size(),
-        near.crossing.size(), near.misplaced.size(),
-        near.rounds == 0 ? "give --snap, or " : fmt::format("{} rounds of snapping did not help; ", near.rounds));
+    text += fmt::format("; {} without area, {} pairs cross that did not, {} inside out: give --snap, or write .qoff",
+                        near.collapsed.size(), near.crossing.size(), near.misplaced.size());
   else if (near.rounds > 0)
-    text += fmt::format("; snapped in {} rounds, by which {} points vanished and {} came: nothing is broken",
-                        near.rounds, near.vanished.size(), near.added.size());
+    text +=
+        fmt::format("; snapped in {} rounds{}, by which {} points vanished and {} came: nothing is broken", near.rounds,
+                    near.coarser == 0 ? "" : fmt::format(", to a grid of 2^{} of the numbers' steps", near.coarser),
+                    near.vanished.size(), near.added.size());
   return text;
 }
 

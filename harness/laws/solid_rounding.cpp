@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -66,6 +67,50 @@ std::string flaw_of_places(const Polygon_soup& before, const Rounded_surface& af
     if (now.is_on_a_face(p)) return "the surface is at " + text_of(p) + ", farther than anything moved";
     if (now.winding(p, random) != then.winding(p, random))
       return text_of(p) + " is inside before or after only, farther than anything moved";
+  }
+  return {};
+}
+
+/// That no two faces of a snapped surface are the same, that its corners are floats, all of one grid if it is a coarser
+/// one, and which of those before are none of them, and which of them are new, is told. `nearest`: the surface once
+/// rounded, point by point.
+std::string flaw_of_points(const Polygon_soup& nearest, const Rounded_surface& after) {
+  using Floats = std::array<float, 3>;
+  const auto floats_of = [](const Exact_point& p) {
+    Floats floats;
+    for (std::size_t k = 0; k < 3; ++k) floats[k] = static_cast<float>(p[k].get_d());
+    return floats;
+  };
+  std::set<Floats> then, now;
+  float farthest = 0;
+  for (Point_id p = 0; p < nearest.point_count(); ++p) {
+    const Floats at = floats_of(nearest.point(p));
+    then.insert(at);
+    for (const float x : at) farthest = std::max(farthest, std::fabs(x));
+  }
+  for (Point_id p = 0; p < after.soup.point_count(); ++p) {
+    const Exact_point at = after.soup.point(p);
+    const Floats floats = floats_of(at);
+    now.insert(floats);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (exact(static_cast<double>(floats[k])) != at[k]) return "a coordinate is no float";
+      const double steps = static_cast<double>(floats[k]) /
+                           std::ldexp(static_cast<double>(std::nextafter(farthest, 0.0F) - farthest), after.coarser);
+      if (after.coarser > 0 && steps != std::floor(steps)) return "a coordinate is not of the grid";
+    }
+  }
+  std::size_t vanished = 0, added = 0;
+  for (Point_id p = 0; p < nearest.point_count(); ++p) vanished += now.count(floats_of(nearest.point(p))) == 0;
+  for (Point_id p = 0; p < after.soup.point_count(); ++p) added += then.count(floats_of(after.soup.point(p))) == 0;
+  if (vanished != after.vanished.size() || added != after.added.size()) return "points vanish or come and are not told";
+  for (const Point_id p : after.vanished)
+    if (now.count(floats_of(nearest.point(p))) > 0) return "a point is said to vanish that is there";
+  for (const Point_id p : after.added)
+    if (then.count(floats_of(after.soup.point(p))) > 0) return "a point is said to be new that was there";
+  std::set<std::set<Point_id>> faces;
+  for (Face_id f = 0; f < after.soup.face_count(); ++f) {
+    const std::span<const Point_id> loop = after.soup.loop(f);
+    if (!faces.insert(std::set<Point_id>(loop.begin(), loop.end())).second) return "two faces have the same corners";
   }
   return {};
 }
@@ -168,10 +213,18 @@ Crossing_flaw flaw_of_crossing(const Polygon_soup& exact, const Rounded_surface&
 
 // ---- What is inside
 
-/// How often the surface winds round what is just before and just behind a point inside a face.
+/// How often the surface winds round what is just before and just behind a point inside a convex face, which may be any
+/// one: what touches the face, at its middle perhaps, may not be right behind it.
 std::array<int, 2> windings_beside(const Solid_oracle& surface, const Flat_face& face, Random& random) {
   static const Rational little = generate::power_of_two(-2000);  // nearer than any other face may be
-  const Exact_point p = generate::centroid(face.corners);
+  Exact_point p;
+  long all = 0;
+  for (const Exact_point& corner : face.corners) {
+    const auto weight = static_cast<long>(random.between(1, 1 << 20));
+    for (std::size_t k = 0; k < 3; ++k) p[k] += corner[k] * weight;
+    all += weight;
+  }
+  for (Rational& x : p) x /= all;
   const int front = surface.winding(generate::along(p, little, face.normal), random);
   return {front, surface.winding(generate::along(p, Rational(-little), face.normal), random)};
 }
@@ -203,19 +256,24 @@ Polygon_soup union_of(const std::vector<Polygon_soup>& solids, Inside_rule rule)
 }  // namespace
 
 std::string flaw_of_rounded(const Polygon_soup& exact, Random& random) {
-  std::vector<Rounded_surface> both;
+  const std::size_t few_rounds = 1 + random.below(3);
+  std::vector<Rounded_surface> all;
   try {
-    both = {rounded(exact, Rounding::to_float), snapped(exact, Rounding::to_float)};
+    all = {rounded(exact, Rounding::to_float), snapped(exact, Rounding::to_float),
+           snapped(exact, Rounding::to_float, false, {}, few_rounds)};
   } catch (const std::domain_error&) {  // beyond what floats hold
     return {};
   }
-  for (const Rounded_surface& near : both) {
-    const std::string name = near.rounds > 0 ? "snapped: " : "rounded: ";
+  for (const Rounded_surface& near : all) {
+    const std::string name = near.coarser > 0  ? "snapped to a coarser grid: "
+                             : near.rounds > 0 ? "snapped: "
+                                               : "rounded: ";
+    if (near.rounds > 0 && !near.is_sound()) return name + "something is broken";
     const std::vector<Polygon_soup> one{near.soup};
-    const std::vector<Operand_flaw> all = flaws(Operands(one));
+    const std::vector<Operand_flaw> open = flaws(Operands(one));
     const bool crosses_itself =  // a face; its edges are open then
-        std::any_of(all.begin(), all.end(), [](const Operand_flaw& flaw) { return !flaw.why.empty(); });
-    if (!all.empty() && (!crosses_itself || near.is_sound())) return name + "the surface is not closed any more";
+        std::any_of(open.begin(), open.end(), [](const Operand_flaw& flaw) { return !flaw.why.empty(); });
+    if (!open.empty() && (!crosses_itself || near.is_sound())) return name + "the surface is not closed any more";
     for (Face_id f = 0; f < near.soup.face_count(); ++f) {
       const Exact_point before = doubled_area_vector(exact, near.face_of[f]);
       const bool is_turned = dot(doubled_area_vector(near.soup, f), before) < 0;
@@ -230,6 +288,8 @@ std::string flaw_of_rounded(const Polygon_soup& exact, Random& random) {
     }
     if (const std::string flaw = flaw_of_sides(near, nothing_meets, random); !flaw.empty()) return name + flaw;
     if (!near.is_sound()) continue;
+    if (near.rounds > 0)
+      if (const std::string flaw = flaw_of_points(all[0].soup, near); !flaw.empty()) return name + flaw;
     if (const std::string flaw = flaw_of_places(exact, near, random); !flaw.empty()) return name + flaw;
     const Rational signed_volume = volume(near.soup);
     for (const Inside_rule rule : {Inside_rule::positive, Inside_rule::nonzero})

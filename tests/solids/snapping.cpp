@@ -225,19 +225,45 @@ TEST(Snapping, ends_where_the_nearest_numbers_come_again_and_again) {
   if (!test_scenes::is_sanitized()) EXPECT_GT(most_rounds, 6u);
 }
 
-TEST(Snapping, gives_up_after_as_many_rounds_as_it_is_allowed) {
+TEST(Snapping, takes_coarser_grids_after_as_many_rounds_as_it_is_allowed) {
   const Polygon_soup exact = without_holes(united(cubes(0, 6, 1L << 20))).soup;
-  const Rounded_surface whole = snapped(exact, Rounding::to_float), near = rounded(exact, Rounding::to_float);
+  const Rounded_surface whole = snapped(exact, Rounding::to_float);
   ASSERT_GT(whole.rounds, 1u);
-  const Rounded_surface given_up = snapped(exact, Rounding::to_float, false, {}, whole.rounds - 1);
-  EXPECT_FALSE(given_up.is_sound());
-  EXPECT_EQ(given_up.rounds, whole.rounds - 1);
-  EXPECT_EQ(given_up.crossing, near.crossing);
-  EXPECT_EQ(given_up.farthest, near.farthest);
-  EXPECT_TRUE(given_up.vanished.empty() && given_up.added.empty());
+  EXPECT_EQ(whole.coarser, 0);
+  generate::Random random(3);
+  int asked = 0;
+  for (std::size_t most = 1; most < whole.rounds; ++most) {
+    const std::string name = std::to_string(most) + " rounds";
+    const Rounded_surface coarse = snapped(exact, Rounding::to_float, false, {}, most);
+    EXPECT_TRUE(coarse.is_sound()) << name;
+    expect_solid(coarse.soup, name);
+    ASSERT_GT(coarse.coarser, 0) << name;
+    EXPECT_GT(coarse.rounds, most) << name;
+    EXPECT_EQ(coarse.moved, whole.moved);
+    const Rational step = sightline::exact(std::ldexp(1.0, 20 - 23 + coarse.coarser));
+    for (Point_id p = 0; p < coarse.soup.point_count(); ++p)
+      for (const Rational& x : coarse.soup.point(p)) EXPECT_EQ(Rational(x / step).get_den(), 1) << name;
+    EXPECT_LE(sightline::exact(coarse.farthest), step * static_cast<long>(coarse.rounds)) << name;
+    expect_points_told(exact, coarse, name);
+    asked += expect_same_inside(exact, coarse, 40, random, name);
+  }
+  EXPECT_GT(asked, 0);
   const Rounded_surface just_so = snapped(exact, Rounding::to_float, false, {}, whole.rounds);
-  EXPECT_TRUE(just_so.is_sound());
+  EXPECT_EQ(just_so.coarser, 0);
   EXPECT_EQ(just_so.rounds, whole.rounds);
+  EXPECT_EQ(volume(just_so.soup), volume(whole.soup));
+}
+
+TEST(Snapping, ends_where_numbers_do) {
+  // As far as floats go, where a coarser grid has points beyond them; cubes of a few steps.
+  Polygon_soup exact;
+  for (const Polygon_soup& cube : {without_holes(united(cubes(3, 6, 0))).soup})
+    exact = generate::translated(generate::scaled(cube, generate::power_of_two(106)),
+                                 {sightline::exact(0x1.ffffe0p127), 0, 0});
+  const Rounded_surface snap = snapped(exact, Rounding::to_float, false, {}, 1);
+  EXPECT_TRUE(snap.is_sound());
+  EXPECT_GT(snap.coarser, 0);
+  expect_points_told(exact, snap, "far");
 }
 
 TEST(Snapping, what_is_thinner_than_the_step_vanishes_all_of_it_perhaps) {
