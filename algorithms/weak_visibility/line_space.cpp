@@ -28,9 +28,17 @@ Rational times_power(Rational x, long exponent) {
 }
 
 Rational Near_frame::near_cubic(const Integer& p, const Integer& w) const {
-  Rational value(p, divisor_ == 1 ? w : Integer(w * divisor_ * divisor_ * divisor_));
+  Rational value(p, over(w));
   value.canonicalize();
   return times_power(std::move(value), -3 * shift_);
+}
+
+double Near_frame::near_cubic(const Integer& p, const Integer& w, long exponent) const {
+  return near_quotient(p, over(w), 3 * shift_ - exponent);
+}
+
+long Near_frame::exponent_of_cubic(const Integer& p, const Integer& w) const {
+  return static_cast<long>(bit_length(p)) - static_cast<long>(bit_length(over(w))) + 1 - 3 * shift_;
 }
 
 Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact) {

@@ -42,12 +42,19 @@ class Near_frame {
   }
   /// A form of degree three in coordinates of the grid, over w, as it would be in near ones.
   Rational near_cubic(const Integer& p, const Integer& w) const;
+  /// The same times 2^exponent, in doubles: within a relative 2^-52, and within 2^-1074 where it underflows. Pre: w >
+  /// 0.
+  double near_cubic(const Integer& p, const Integer& w, long exponent) const;
+  /// e with near_cubic(p, w) less than 2^e in size, and at least 2^(e - 2). Pre: p != 0, w > 0.
+  long exponent_of_cubic(const Integer& p, const Integer& w) const;
   /// What a plane's last coefficient is multiplied by less than the others.
   Rational unit() const { return times_power(Rational(divisor_), shift_); }
   /// From these coordinates to those of boxes (Grid_points::approximate). It may underflow, even to 0.
   double to_boxes() const { return std::ldexp(1.0, static_cast<int>(exponent_)); }
 
  private:
+  Integer over(const Integer& w) const { return divisor_ == 1 ? w : Integer(w * divisor_ * divisor_ * divisor_); }
+
   Integer divisor_;
   long exponent_, shift_;
 };

@@ -50,6 +50,31 @@ TEST(Near_coordinates, are_at_most_a_half_and_not_all_of_them_small_at_any_scale
     }
 }
 
+TEST(Near_coordinates, of_forms_of_degree_three_are_those_of_rationals_but_for_rounding) {
+  std::size_t asked = 0;
+  for (const int power : {-900, -60, 0, 500})
+    for (const long odd : {1L, 3L, 999999999999999999L}) {
+      Polygon_soup soup;
+      const Rational size = power_of_two(power);
+      soup.add_face({soup.add_point(0, 0, 0), soup.add_point(Rational(size / odd), 0, 0), soup.add_point(0, size, 0)});
+      const Scene scene(soup);
+      const Near_frame frame(scene);
+      const Integer large = Integer(odd) * Integer(odd) * Integer(odd);
+      for (const Integer& p : {Integer(1), Integer(-3), Integer(large + 1), Integer(-large * 12345)})
+        for (const Integer& w : {Integer(1), Integer(7), Integer(large + 2)}) {
+          const Rational exact = frame.near_cubic(p, w);
+          const long e = frame.exponent_of_cubic(p, w);
+          const Rational scaled = abs(times_power(exact, -e));
+          EXPECT_LT(scaled, 1);
+          EXPECT_GE(scaled, Rational(1, 4));
+          const double near = frame.near_cubic(p, w, -e);
+          EXPECT_LE(abs(sightline::exact(near) - times_power(exact, -e)), scaled * power_of_two(-52));
+          ++asked;
+        }
+    }
+  EXPECT_EQ(asked, 4u * 3 * 4 * 3);
+}
+
 TEST(Side_of_a_near_plane, is_that_of_integers_for_coordinates_of_all_exponents) {
   std::size_t asked = 0;
   in_each_mixed_scene([&](std::uint64_t seed, const Occluders& occluders, const Weak_source& source) {

@@ -10,10 +10,15 @@
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
+#include <sightline/algorithms/weak_visibility/search/near_lines.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <memory>
 
 namespace {
 
@@ -118,6 +123,70 @@ TEST(Parallel_planes, have_the_answers_of_exact_polytopes_closed_and_reopened_by
   }
   EXPECT_GT(visible, 10u);
   EXPECT_GT(hidden, 10u);
+}
+
+TEST(Weak_visibility, of_a_city_from_its_ground_takes_a_few_lines_for_each_wall) {
+  // Most lines from so large a source miss what stands upon it, and everything is near its shafts.
+  for (const bool rotated : {false, true}) {
+    const std::size_t boxes = 100;
+    const Polygon_soup city = generate::city(boxes, 1, rotated);
+    const auto ground = static_cast<Face_id>(5 * boxes);
+    std::vector<Exact_point> points;
+    for (const Point_id p : city.loop(ground)) points.push_back(city.point(p));
+    const Found found = found_and_verified(city, {points}, {}, "city");
+    EXPECT_EQ(found.answer.visible.size(), 4 * boxes);
+    EXPECT_EQ(found.answer.counters.by_rays, 4 * boxes);
+    EXPECT_EQ(found.answer.counters.occluders, 0u) << "no shaft is asked for what is near it";
+    EXPECT_EQ(found.answer.counters.cells, 0u);
+  }
+}
+
+TEST(Near_lines, go_from_inside_to_inside_in_front_of_both_planes) {
+  std::size_t asked = 0, nearer = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const Scene scene(generate::soup(12, 0.3, seed));
+    const Occluders occluders(scene);
+    const auto pieces = static_cast<std::uint32_t>(scene.pieces().size());
+    for (std::uint32_t s = 0; s < pieces; ++s)
+      for (std::uint32_t t = 0; t < pieces; ++t) {
+        const Near_polygon source = occluders.polygon(s), target = occluders.polygon(t);
+        const Near_plane &of_source = occluders.plane(s), &of_target = occluders.plane(t);
+        if (side(of_source, target) != 1 || side(of_target, source) != 1) continue;
+        const auto mean = [](const Near_polygon& polygon, const std::vector<double>& weights) {
+          Triple p{};
+          for (std::size_t i = 0; i < polygon.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k) p[k] += weights[i] * polygon[i].near[k];
+          return p;
+        };
+        const auto distance = [](const Triple& p, const Triple& q) {
+          return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+        };
+        const std::vector<Line_weights> lines = near_lines(source, of_source, target, of_target);
+        EXPECT_EQ(lines.size(), 4u);
+        const Line_weights middle = Line_weights::middle(
+            Line_domain(std::make_shared<Near_polygon>(source), std::make_shared<Near_polygon>(target)));
+        const double far = distance(mean(source, middle.source), mean(target, middle.target));
+        double least = far;
+        for (const Line_weights& line : lines) {
+          for (const std::vector<double>* weights : {&line.source, &line.target}) {
+            double sum = 0;
+            for (const double w : *weights) {
+              EXPECT_GT(w, 0);
+              sum += w;
+            }
+            EXPECT_NEAR(sum, 1, 1e-12);
+          }
+          const Triple p = mean(source, line.source), q = mean(target, line.target);
+          EXPECT_GT(likely_value(of_source.near, q), 0);
+          EXPECT_GT(likely_value(of_target.near, p), 0);
+          least = std::min(least, distance(p, q));
+          ++asked;
+        }
+        nearer += least < 0.8 * far;
+      }
+  }
+  EXPECT_GT(asked, 400u);
+  EXPECT_GT(nearer, asked / 8) << "a line of each pair is nearer than that of middles, as a rule";
 }
 
 TEST(Weak_visibility, of_two_faces_is_mutual) {

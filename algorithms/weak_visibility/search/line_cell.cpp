@@ -2,21 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace sightline {
-namespace {
-
-/// e with all numbers less than 2^e in size, one of them at least 2^(e - 2); 0 where all are 0.
-long exponent_of_largest(const std::vector<Rational>& numbers) {
-  const auto largest = std::max_element(numbers.begin(), numbers.end(),
-                                        [](const Rational& a, const Rational& b) { return cmp(abs(a), abs(b)) < 0; });
-  if (sgn(*largest) == 0) return 0;
-  return static_cast<long>(bit_length(largest->get_num())) - static_cast<long>(bit_length(largest->get_den())) + 1;
-}
-
-}  // namespace
-
 Line_domain::Line_domain(Shared_polygon s, Shared_polygon t)
     : shared_source(std::move(s)), shared_target(std::move(t)), source(*shared_source), target(*shared_target) {
   for (const Near_point& p : source) source_size = std::max(source_size, size(p.near));
@@ -32,8 +21,11 @@ const Exact_pluecker& Line_domain::exact_pluecker_of(std::size_t c) {
 }
 
 Rational Line_domain::exact_side(const Edge_lines::Edge_line& line, std::size_t c, const Near_frame& frame) {
-  return frame.near_cubic(dot(exact_pluecker_of(c), line.exact),
-                          Integer(source[c / target.size()].exact[3] * target[c % target.size()].exact[3]));
+  return frame.near_cubic(dot(exact_pluecker_of(c), line.exact), weight_of(c));
+}
+
+Integer Line_domain::weight_of(std::size_t c) const {
+  return source[c / target.size()].exact[3] * target[c % target.size()].exact[3];
 }
 
 const std::vector<Rational>& Line_domain::exact_sides(const Edge_lines& lines, std::uint32_t id,
@@ -80,11 +72,14 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
     for (double& v : r.values) v *= scale;
     r.error *= scale;
   } else if (r.decided == 0) {  // small polygons, a line close to all of them, or far away: integers, rounded once
-    std::vector<Rational> sides;
-    for (std::size_t c = 0; c < pairs.size(); ++c) sides.push_back(exact_side(line, c, frame));
-    r.exponent = -exponent_of_largest(sides);
-    for (std::size_t c = 0; c < pairs.size(); ++c)
-      r.values[c] = nearest_double(times_power(std::move(sides[c]), r.exponent));
+    std::vector<Integer> sides;
+    long largest = std::numeric_limits<long>::min();
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+      sides.push_back(dot(exact_pluecker_of(c), line.exact));
+      if (sgn(sides[c]) != 0) largest = std::max(largest, frame.exponent_of_cubic(sides[c], weight_of(c)));
+    }
+    r.exponent = largest == std::numeric_limits<long>::min() ? 0 : -largest;
+    for (std::size_t c = 0; c < pairs.size(); ++c) r.values[c] = frame.near_cubic(sides[c], weight_of(c), r.exponent);
     r.error = 0x1p-52;
   }
   for (const std::size_t c : zeros) r.values[c] = 0;

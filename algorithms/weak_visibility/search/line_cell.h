@@ -62,6 +62,7 @@ struct Line_domain {
  private:
   Side_row& row_at(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame);
   Side_row row_of(const Edge_lines::Edge_line& line, const Near_frame& frame);
+  Integer weight_of(std::size_t c) const;  ///< the product of a pair's last coordinates
 };
 
 /// A line that is passed on the side `sign`.

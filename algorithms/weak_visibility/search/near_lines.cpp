@@ -1,0 +1,128 @@
+#include <sightline/algorithms/weak_visibility/search/near_lines.h>
+
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace sightline {
+namespace {
+
+Triple mixed(const Triple& p, const Triple& q, double share) {
+  Triple r;
+  for (std::size_t k = 0; k < 3; ++k) r[k] = p[k] + share * (q[k] - p[k]);
+  return r;
+}
+double dot_product(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double distance(const Triple& p, const Triple& q) {
+  const Triple d = minus(q, p);
+  return std::sqrt(dot_product(d, d));
+}
+
+Triple middle_of(const Near_polygon& polygon) {
+  Triple middle{};
+  for (const Near_point& corner : polygon)
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += corner.near[k] / static_cast<double>(polygon.size());
+  return middle;
+}
+
+/// Of a point as a mixture of corners a, b, c: where it is projected onto their plane.
+std::array<double, 3> mixture(const Triple& p, const Triple& a, const Triple& b, const Triple& c) {
+  const Triple u = minus(b, a), v = minus(c, a), w = minus(p, a);
+  const double uu = dot_product(u, u), uv = dot_product(u, v), vv = dot_product(v, v), wu = dot_product(w, u),
+               wv = dot_product(w, v), determinant = uu * vv - uv * uv;
+  const double of_b = (vv * wu - uv * wv) / determinant, of_c = (uu * wv - uv * wu) / determinant;
+  return {1 - of_b - of_c, of_b, of_c};
+}
+
+/// The point of a convex polygon nearest to p, as a mixture of its corners: p's projection if it is inside.
+std::vector<double> nearest(const Near_polygon& polygon, const Triple& p) {
+  std::vector<double> weights(polygon.size(), 0);
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const std::array<double, 3> m = mixture(p, polygon[0].near, polygon[i].near, polygon[i + 1].near);
+    if (!(m[0] >= 0 && m[1] >= 0 && m[2] >= 0)) continue;
+    weights[0] = m[0];
+    weights[i] = m[1];
+    weights[i + 1] = m[2];
+    return weights;
+  }
+  double least = std::numeric_limits<double>::infinity(), share = 0;
+  std::size_t edge = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Triple &a = polygon[i].near, &b = polygon[(i + 1) % polygon.size()].near;
+    const Triple along = minus(b, a);
+    const double at = std::clamp(dot_product(minus(p, a), along) / dot_product(along, along), 0.0, 1.0),
+                 far = distance(p, mixed(a, b, at));
+    if (!(far < least)) continue;
+    least = far;
+    edge = i;
+    share = at;
+  }
+  weights[edge] = 1 - share;
+  weights[(edge + 1) % polygon.size()] += share;
+  return weights;
+}
+
+/// A point of `own` that is near the middle of `other`, and off the plane of that by a share of its size, in front.
+std::vector<double> beside(const Near_polygon& own, const Near_polygon& other, const Near_plane& plane, double share) {
+  std::vector<double> weights = nearest(own, middle_of(other));
+  double reach = 0, size = 0;
+  std::size_t ahead = 0;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (const double height = likely_value(plane.near, own[i].near); height > reach) {
+      reach = height;
+      ahead = i;
+    }
+  const Triple middle = middle_of(other);
+  for (const Near_point& corner : other) size = std::max(size, distance(corner.near, middle));
+  Triple at{};
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) at[k] += weights[i] * own[i].near[k];
+  const double far = distance(at, own[ahead].near), step = far > 0 ? std::min(0.5, share * size / far) : 0.5;
+  for (double& w : weights) w *= 1 - step;
+  weights[ahead] += step;
+  return weights;
+}
+
+/// A mixture of corners with something of each.
+void spread(std::vector<double>& weights, double share) {
+  for (double& w : weights) w = (1 - share) * w + share / static_cast<double>(weights.size());
+}
+
+}  // namespace
+
+std::vector<Line_weights> near_lines(const Near_polygon& source, const Near_plane& source_plane,
+                                     const Near_polygon& target, const Near_plane& target_plane) {
+  constexpr std::array off{0.25, 0.03125};
+  std::vector<Line_weights> lines;
+  const auto add = [&](Line_weights line) {
+    const auto is_finite = [](double w) { return std::isfinite(w); };
+    if (std::all_of(line.source.begin(), line.source.end(), is_finite) &&
+        std::all_of(line.target.begin(), line.target.end(), is_finite))
+      lines.push_back(std::move(line));
+  };
+  for (const double share : off) {
+    Line_weights from{beside(source, target, target_plane, share), {}, {}, {}};
+    Triple at{};
+    for (std::size_t i = 0; i < source.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) at[k] += from.source[i] * source[i].near[k];
+    from.target = nearest(target, at);
+    spread(from.target, share);
+    spread(from.source, 0x1p-30);
+    add(std::move(from));
+    Line_weights to{{}, beside(target, source, source_plane, share), {}, {}};
+    at = {};
+    for (std::size_t i = 0; i < target.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) at[k] += to.target[i] * target[i].near[k];
+    to.source = nearest(source, at);
+    spread(to.source, share);
+    spread(to.target, 0x1p-30);
+    add(std::move(to));
+  }
+  return lines;
+}
+
+}  // namespace sightline
