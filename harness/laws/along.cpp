@@ -55,8 +55,14 @@ Exact_point end_of_path(const Posed_scene& posed, const Scene& scene, Random& ra
       return generate::along(a, ratio(random.between(1, 5), 2), minus(d, posed.eye));
     }
     default: {
+      // As far away as that whatever the scene's size, but of many pieces, where numbers of thousands of digits would
+      // take minutes.
+      constexpr std::size_t few_pieces = 8;
+      const Exact_point edge = minus(b, a);
+      const Rational size = std::max({Rational(abs(edge[0])), Rational(abs(edge[1])), Rational(abs(edge[2]))}),
+                     unit = scene.pieces().size() > few_pieces ? size : Rational(1);
       Exact_point p = a;
-      for (Rational& x : p) x += ratio(random.between(-40, 40), 7);
+      for (Rational& x : p) x += unit * ratio(random.between(-40, 40), 7);
       return p;
     }
   }
