@@ -71,9 +71,9 @@ std::string flaw_of_places(const Polygon_soup& before, const Rounded_surface& af
   return {};
 }
 
-/// That no two faces of a snapped surface are the same, that its corners are floats, all of one grid if it is a coarser
-/// one, and which of those before are none of them, and which of them are new, is told. `nearest`: the surface once
-/// rounded, point by point.
+/// That no two points or faces of a snapped surface are the same, that its corners are floats, all of one grid if it is
+/// a coarser one, and which of those before are none of them, and which of them are new, is told. `nearest`: the
+/// surface once rounded, point by point.
 std::string flaw_of_points(const Polygon_soup& nearest, const Rounded_surface& after) {
   using Floats = std::array<float, 3>;
   const auto floats_of = [](const Exact_point& p) {
@@ -99,6 +99,7 @@ std::string flaw_of_points(const Polygon_soup& nearest, const Rounded_surface& a
       if (after.coarser > 0 && steps != std::floor(steps)) return "a coordinate is not of the grid";
     }
   }
+  if (now.size() != after.soup.point_count()) return "two points are at one place";
   std::size_t vanished = 0, added = 0;
   for (Point_id p = 0; p < nearest.point_count(); ++p) vanished += now.count(floats_of(nearest.point(p))) == 0;
   for (Point_id p = 0; p < after.soup.point_count(); ++p) added += then.count(floats_of(after.soup.point(p))) == 0;

@@ -99,6 +99,10 @@ TEST_F(Files, keep_their_permissions) {
   fs::permissions(path("a"), own);
   write_bytes(path("a"), "new");
   EXPECT_EQ(fs::status(path("a")).permissions(), own);
+  // Where there was none, those of any new file.
+  write_bytes(path("b"), "new");
+  std::ofstream(path("c")) << "new";
+  EXPECT_EQ(fs::status(path("b")).permissions(), fs::status(path("c")).permissions());
 }
 
 TEST_F(Files, that_are_locked_are_not_replaced) {

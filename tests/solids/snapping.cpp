@@ -137,6 +137,7 @@ void expect_points_told(const Polygon_soup& before, const Rounded_surface& after
   }
   for (Point_id p = 0; p < after.soup.point_count(); ++p)
     added += nearest.count(place_in_floats(after.soup.point(p))) == 0;
+  EXPECT_EQ(now.size(), after.soup.point_count()) << name << ": each point is there once";
   EXPECT_EQ(after.vanished.size(), vanished) << name;
   EXPECT_EQ(after.added.size(), added) << name;
   for (const Point_id p : after.added)
@@ -145,7 +146,7 @@ void expect_points_told(const Polygon_soup& before, const Rounded_surface& after
 
 TEST(Snapping, leaves_a_solid_wherever_rounding_does_not) {
   int broken = 0, asked = 0;
-  std::size_t vanished = 0, added = 0, most_rounds = 0, turned = 0;
+  std::size_t vanished = 0, added = 0, of_grid = 0, most_rounds = 0, turned = 0;
   generate::Random random(7);
   for (int seed = 0; seed < test_scenes::sample(20); ++seed)
     for (const long far : {100000L, 1L << 20, 10000000L}) {
@@ -176,6 +177,11 @@ TEST(Snapping, leaves_a_solid_wherever_rounding_does_not) {
       if (seed < 6) asked += expect_same_inside(exact, snap, 40, random, name);
       vanished += snap.vanished.size();
       added += snap.added.size();
+      for (const Point_id p : snap.added) {
+        const Exact_point at = snap.soup.point(p);
+        of_grid += std::all_of(at.begin(), at.end(),
+                               [&](const Rational& x) { return Rational(x / sightline::exact(step)).get_den() == 1; });
+      }
       most_rounds = std::max(most_rounds, snap.rounds);
       turned += snap.turned.size();
       // Faces lie along those that they are said to be parts of.
@@ -191,6 +197,7 @@ TEST(Snapping, leaves_a_solid_wherever_rounding_does_not) {
   EXPECT_GT(asked, test_scenes::least(100));
   EXPECT_GT(vanished, 0u);
   EXPECT_GT(added, 0u);
+  EXPECT_GT(10 * of_grid, 9 * added) << "new points are of a grid in all coordinates, but for those that were numbers";
   EXPECT_GT(most_rounds, 2u);
 }
 
@@ -223,6 +230,16 @@ TEST(Snapping, ends_where_the_nearest_numbers_come_again_and_again) {
     most_rounds = std::max(most_rounds, snap.rounds);
   }
   if (!test_scenes::is_sanitized()) EXPECT_GT(most_rounds, 6u);
+}
+
+TEST(Snapping, moves_nothing_that_the_numbers_hold) {
+  const Polygon_soup cube = box({0, -1, 2}, {3, 1, 4});
+  for (const Rounded_surface& same : {rounded(cube, Rounding::to_float), snapped(cube, Rounding::to_float)}) {
+    EXPECT_TRUE(same.is_sound());
+    EXPECT_EQ(same.moved, 0u);
+    EXPECT_EQ(same.farthest, 0);
+    EXPECT_EQ(volume(same.soup), volume(cube));
+  }
 }
 
 TEST(Snapping, takes_coarser_grids_after_as_many_rounds_as_it_is_allowed) {
