@@ -242,6 +242,16 @@ TEST(Snapping, moves_nothing_that_the_numbers_hold) {
   }
 }
 
+TEST(Snapping, rounds_to_floats_once) {
+  // The nearest doubles are halfway between two floats, and the even one of these is not the nearer one.
+  const Rational half(1, 1 << 24), little = generate::power_of_two(-80);
+  const Exact_point p{1 + half + little, 1 + 3 * half - little, -1 - half - little};
+  const Rounded_surface near = rounded(point_alone(p), Rounding::to_float);
+  EXPECT_EQ(near.soup.point(0), (Exact_point{1 + 2 * half, 1 + 2 * half, -1 - 2 * half}));
+  const Exact_point ties{1 + half, 1 + 3 * half, -1 - half};
+  EXPECT_EQ(rounded(point_alone(ties), Rounding::to_float).soup.point(0), (Exact_point{1, 1 + 4 * half, -1}));
+}
+
 TEST(Snapping, takes_coarser_grids_after_as_many_rounds_as_it_is_allowed) {
   const Polygon_soup exact = without_holes(united(cubes(0, 6, 1L << 20))).soup;
   const Rounded_surface whole = snapped(exact, Rounding::to_float);
