@@ -44,6 +44,7 @@ Json definitions() {
                                {"rounds", count},
                                {"vanished", list_of(named("point"))},
                                {"added", list_of(named("point"))},
+                               {"coarser", count},
                                {"sound", type("boolean")}})},
           {"hit", object({{"face", face},
                           {"side", one_word_of({"front", "back", "along"})},
