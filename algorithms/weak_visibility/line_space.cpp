@@ -49,6 +49,13 @@ Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact) {
   return p;
 }
 
+Triple weighted_mean(const Near_polygon& polygon, const std::vector<double>& weights) {
+  Triple p{};
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) p[k] += weights[i] * polygon[i].near[k];
+  return p;
+}
+
 Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exact) {
   Near_plane h{exact, {}};
   const Integer size = std::max({Integer(abs(exact[0])), Integer(abs(exact[1])), Integer(abs(exact[2]))});

@@ -69,6 +69,9 @@ using Near_polygon = std::vector<Near_point>;
 
 Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact);
 
+/// The mean of a polygon's corners by weights that sum up to 1, in doubles.
+Triple weighted_mean(const Near_polygon& polygon, const std::vector<double>& weights);
+
 /// An oriented plane in grid coordinates.
 struct Near_plane {
   std::array<Integer, 4> exact;

@@ -283,10 +283,9 @@ TEST(Snapping, takes_coarser_grids_after_as_many_rounds_as_it_is_allowed) {
 
 TEST(Snapping, ends_where_numbers_do) {
   // As far as floats go, where a coarser grid has points beyond them; cubes of a few steps.
-  Polygon_soup exact;
-  for (const Polygon_soup& cube : {without_holes(united(cubes(3, 6, 0))).soup})
-    exact = generate::translated(generate::scaled(cube, generate::power_of_two(106)),
-                                 {sightline::exact(0x1.ffffe0p127), 0, 0});
+  const Polygon_soup exact =
+      generate::translated(generate::scaled(without_holes(united(cubes(3, 6, 0))).soup, generate::power_of_two(106)),
+                           {sightline::exact(0x1.ffffe0p127), 0, 0});
   const Rounded_surface snap = snapped(exact, Rounding::to_float, false, {}, 1);
   EXPECT_TRUE(snap.is_sound());
   EXPECT_GT(snap.coarser, 0);

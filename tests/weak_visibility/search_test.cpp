@@ -152,12 +152,6 @@ TEST(Near_lines, go_from_inside_to_inside_in_front_of_both_planes) {
         const Near_polygon source = occluders.polygon(s), target = occluders.polygon(t);
         const Near_plane &of_source = occluders.plane(s), &of_target = occluders.plane(t);
         if (side(of_source, target) != 1 || side(of_target, source) != 1) continue;
-        const auto mean = [](const Near_polygon& polygon, const std::vector<double>& weights) {
-          Triple p{};
-          for (std::size_t i = 0; i < polygon.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k) p[k] += weights[i] * polygon[i].near[k];
-          return p;
-        };
         const auto distance = [](const Triple& p, const Triple& q) {
           return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
         };
@@ -165,7 +159,7 @@ TEST(Near_lines, go_from_inside_to_inside_in_front_of_both_planes) {
         EXPECT_EQ(lines.size(), 4u);
         const Line_weights middle = Line_weights::middle(
             Line_domain(std::make_shared<Near_polygon>(source), std::make_shared<Near_polygon>(target)));
-        const double far = distance(mean(source, middle.source), mean(target, middle.target));
+        const double far = distance(weighted_mean(source, middle.source), weighted_mean(target, middle.target));
         double least = far;
         for (const Line_weights& line : lines) {
           for (const std::vector<double>* weights : {&line.source, &line.target}) {
@@ -176,7 +170,7 @@ TEST(Near_lines, go_from_inside_to_inside_in_front_of_both_planes) {
             }
             EXPECT_NEAR(sum, 1, 1e-12);
           }
-          const Triple p = mean(source, line.source), q = mean(target, line.target);
+          const Triple p = weighted_mean(source, line.source), q = weighted_mean(target, line.target);
           EXPECT_GT(likely_value(of_source.near, q), 0);
           EXPECT_GT(likely_value(of_target.near, p), 0);
           least = std::min(least, distance(p, q));

@@ -30,13 +30,6 @@ bool is_worth_it(int narrowed) {
   return next == narrowed;
 }
 
-Triple weighted_mean(const Near_polygon& polygon, const std::vector<double>& weights) {
-  Triple p{};
-  for (std::size_t i = 0; i < polygon.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) p[k] += weights[i] * polygon[i].near[k];
-  return p;
-}
-
 }  // namespace
 
 Line_search::Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace sightline {
 namespace {
@@ -16,10 +17,9 @@ Triple mixed(const Triple& p, const Triple& q, double share) {
   for (std::size_t k = 0; k < 3; ++k) r[k] = p[k] + share * (q[k] - p[k]);
   return r;
 }
-double dot_product(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double distance(const Triple& p, const Triple& q) {
   const Triple d = minus(q, p);
-  return std::sqrt(dot_product(d, d));
+  return std::sqrt(dot(d, d));
 }
 
 Triple middle_of(const Near_polygon& polygon) {
@@ -32,8 +32,8 @@ Triple middle_of(const Near_polygon& polygon) {
 /// Of a point as a mixture of corners a, b, c: where it is projected onto their plane.
 std::array<double, 3> mixture(const Triple& p, const Triple& a, const Triple& b, const Triple& c) {
   const Triple u = minus(b, a), v = minus(c, a), w = minus(p, a);
-  const double uu = dot_product(u, u), uv = dot_product(u, v), vv = dot_product(v, v), wu = dot_product(w, u),
-               wv = dot_product(w, v), determinant = uu * vv - uv * uv;
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v),
+               determinant = uu * vv - uv * uv;
   const double of_b = (vv * wu - uv * wv) / determinant, of_c = (uu * wv - uv * wu) / determinant;
   return {1 - of_b - of_c, of_b, of_c};
 }
@@ -54,7 +54,7 @@ std::vector<double> nearest(const Near_polygon& polygon, const Triple& p) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Triple &a = polygon[i].near, &b = polygon[(i + 1) % polygon.size()].near;
     const Triple along = minus(b, a);
-    const double at = std::clamp(dot_product(minus(p, a), along) / dot_product(along, along), 0.0, 1.0),
+    const double at = std::clamp(dot(minus(p, a), along) / dot(along, along), 0.0, 1.0),
                  far = distance(p, mixed(a, b, at));
     if (!(far < least)) continue;
     least = far;
@@ -68,7 +68,8 @@ std::vector<double> nearest(const Near_polygon& polygon, const Triple& p) {
 
 /// A point of `own` that is near the middle of `other`, and off the plane of that by a share of its size, in front.
 std::vector<double> beside(const Near_polygon& own, const Near_polygon& other, const Near_plane& plane, double share) {
-  std::vector<double> weights = nearest(own, middle_of(other));
+  const Triple middle = middle_of(other);
+  std::vector<double> weights = nearest(own, middle);
   double reach = 0, size = 0;
   std::size_t ahead = 0;
   for (std::size_t i = 0; i < own.size(); ++i)
@@ -76,12 +77,9 @@ std::vector<double> beside(const Near_polygon& own, const Near_polygon& other, c
       reach = height;
       ahead = i;
     }
-  const Triple middle = middle_of(other);
   for (const Near_point& corner : other) size = std::max(size, distance(corner.near, middle));
-  Triple at{};
-  for (std::size_t i = 0; i < own.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) at[k] += weights[i] * own[i].near[k];
-  const double far = distance(at, own[ahead].near), step = far > 0 ? std::min(0.5, share * size / far) : 0.5;
+  const double far = distance(weighted_mean(own, weights), own[ahead].near),
+               step = far > 0 ? std::min(0.5, share * size / far) : 0.5;
   for (double& w : weights) w *= 1 - step;
   weights[ahead] += step;
   return weights;
@@ -90,6 +88,15 @@ std::vector<double> beside(const Near_polygon& own, const Near_polygon& other, c
 /// A mixture of corners with something of each.
 void spread(std::vector<double>& weights, double share) {
   for (double& w : weights) w = (1 - share) * w + share / static_cast<double>(weights.size());
+}
+
+/// Of a line its end in `own`, beside the middle of `other`, and that in `other`, near there.
+std::array<std::vector<double>, 2> ends_beside(const Near_polygon& own, const Near_polygon& other,
+                                               const Near_plane& plane, double share) {
+  std::vector<double> end = beside(own, other, plane, share), other_end = nearest(other, weighted_mean(own, end));
+  spread(other_end, share);
+  spread(end, 0x1p-30);
+  return {std::move(end), std::move(other_end)};
 }
 
 }  // namespace
@@ -105,22 +112,10 @@ std::vector<Line_weights> near_lines(const Near_polygon& source, const Near_plan
       lines.push_back(std::move(line));
   };
   for (const double share : off) {
-    Line_weights from{beside(source, target, target_plane, share), {}, {}, {}};
-    Triple at{};
-    for (std::size_t i = 0; i < source.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) at[k] += from.source[i] * source[i].near[k];
-    from.target = nearest(target, at);
-    spread(from.target, share);
-    spread(from.source, 0x1p-30);
-    add(std::move(from));
-    Line_weights to{{}, beside(target, source, source_plane, share), {}, {}};
-    at = {};
-    for (std::size_t i = 0; i < target.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) at[k] += to.target[i] * target[i].near[k];
-    to.source = nearest(source, at);
-    spread(to.source, share);
-    spread(to.target, 0x1p-30);
-    add(std::move(to));
+    auto [from, to_near] = ends_beside(source, target, target_plane, share);
+    add({std::move(from), std::move(to_near), {}, {}});
+    auto [to, from_near] = ends_beside(target, source, source_plane, share);
+    add({std::move(from_near), std::move(to), {}, {}});
   }
   return lines;
 }
