@@ -37,6 +37,9 @@ class Line_table {
   Integer integer(std::uint32_t id, int k) const { return from_limbs(rows_[id] + k * limbs_, limbs_); }
 
  private:
+  Line through_small(std::uint32_t p, std::uint32_t q);  // grids of 62 bits at most
+  Line through_any(std::uint32_t p, std::uint32_t q);
+
   const Grid_points* points_;
   int limbs_;
   Row_table rows_;

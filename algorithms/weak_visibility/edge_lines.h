@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -23,8 +24,14 @@ class Edge_lines {
     std::array<std::uint32_t, 2> points;  ///< that edge's ends
     bool flipped;                         ///< runs against the canonical direction
     Pluecker near;
-    Ends ends;  ///< of its two points
-    Exact_pluecker exact;
+    Triple from, rest;  ///< its first end, and what that leaves
+    Triple along;       ///< the way to the other one
+    double reach;       ///< the largest coordinate of its ends
+    const Occluders* occluders;
+    mutable std::optional<Exact_pluecker> made = {};
+
+    /// Made when it is first asked for, by one thread. Exact: yes.
+    const Exact_pluecker& exact() const;
   };
   /// An edge's line: `sense` -1 where it runs the other way.
   struct Edge {

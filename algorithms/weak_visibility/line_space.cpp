@@ -27,6 +27,20 @@ Rational times_power(Rational x, long exponent) {
   return x;
 }
 
+double Near_frame::rest(const Integer& p, const Integer& w, double near) const {
+  if (near == 0 || !std::isfinite(near)) return 0;
+  // near = mantissa 2^e; what is left of p / (w 2^shift), over the same.
+  int e = 0;
+  const Integer mantissa(std::ldexp(std::frexp(near, &e), 53));
+  const long power = e - 53 + shift_;
+  const Integer below = w * divisor_;
+  Integer left = mantissa * below, p_there = p;
+  if (power >= 0) left <<= static_cast<mp_bitcnt_t>(power);
+  else p_there <<= static_cast<mp_bitcnt_t>(-power);
+  left = p_there - left;
+  return near_quotient(left, below, shift_ + std::max(0L, -power));
+}
+
 Rational Near_frame::near_cubic(const Integer& p, const Integer& w) const {
   Rational value(p, over(w));
   value.canonicalize();
@@ -45,7 +59,10 @@ Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact) {
   const Integer common = gcd(gcd(exact[0], exact[1]), gcd(exact[2], exact[3]));
   Near_point p;
   for (std::size_t k = 0; k < 4; ++k) p.exact[k] = exact[k] / common;
-  for (std::size_t k = 0; k < 3; ++k) p.near[k] = frame.near(p.exact[k], p.exact[3]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    p.near[k] = frame.near(p.exact[k], p.exact[3]);
+    p.rest[k] = frame.rest(p.exact[k], p.exact[3], p.near[k]);
+  }
   return p;
 }
 

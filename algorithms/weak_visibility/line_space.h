@@ -27,7 +27,8 @@ Rational times_power(Rational x, long exponent);
 /// of the scene's points are at most 1/2, and the bound of them at least 1/8. Those of a source are what they are.
 class Near_frame {
  public:
-  explicit Near_frame(const Scene& scene) : divisor_(scene.points().divisor()) {
+  explicit Near_frame(const Scene& scene)
+      : divisor_(scene.points().divisor()), has_exact_points_(scene.points().bits() <= 53) {
     exponent_ = scene.points().bits() - scene.points().shift() + 2 - static_cast<long>(bit_length(divisor_));
     shift_ = scene.points().shift() + exponent_;
   }
@@ -40,6 +41,11 @@ class Near_frame {
     return exponent_ < 0 ? near(scene.points().integer(point, axis), 1)
                          : std::ldexp(scene.points().approximate(point, axis), -static_cast<int>(exponent_));
   }
+  /// What such a coordinate leaves: the true one less `near`, within a relative 2^-52 and 2^-1074; 0 where it is
+  /// infinite.
+  double rest(const Integer& p, const Integer& w, double near) const;
+  /// Whether the coordinates of all points of the scene leave nothing.
+  bool has_exact_points() const { return has_exact_points_; }
   /// A form of degree three in coordinates of the grid, over w, as it would be in near ones.
   Rational near_cubic(const Integer& p, const Integer& w) const;
   /// The same times 2^exponent, in doubles: within a relative 2^-52, and within 2^-1074 where it underflows. Pre: w >
@@ -57,6 +63,7 @@ class Near_frame {
 
   Integer divisor_;
   long exponent_, shift_;
+  bool has_exact_points_;
 };
 
 /// A point in homogeneous grid coordinates, the last one positive, reduced; and in doubles, each within a relative
@@ -64,10 +71,19 @@ class Near_frame {
 struct Near_point {
   std::array<Integer, 4> exact;
   Triple near;
+  Triple rest = {};  ///< what that leaves: the two together are within a relative 2^-104
 };
 using Near_polygon = std::vector<Near_point>;
 
 Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact);
+
+/// The way from p to q, each given with what it leaves: within 2^-51 of itself, 2^-99 of p and q, and 2^-1072. Proof:
+/// P-70
+inline Triple way_between(const Triple& p, const Triple& rest_of_p, const Triple& q, const Triple& rest_of_q) {
+  Triple way;
+  for (std::size_t k = 0; k < 3; ++k) way[k] = (q[k] - p[k]) + (rest_of_q[k] - rest_of_p[k]);
+  return way;
+}
 
 /// The mean of a polygon's corners by weights that sum up to 1, in doubles.
 Triple weighted_mean(const Near_polygon& polygon, const std::vector<double>& weights);
@@ -148,6 +164,15 @@ inline Ends ends(double a, double b) { return {a + b, a * b}; }
 inline double side_error(const Ends& pq, const Ends& ab) {
   if (!(pq.sum + ab.sum < 0x1p64)) return std::numeric_limits<double>::infinity();
   return 0x1p-46 * (pq.sum * ab.product + pq.product * ab.sum) + 0x1p-900;
+}
+
+/// The side of a pair (p, q) of the line from a to b is the determinant of three ways: from p to q, from a to b, from p
+/// to a. Bounds its error where these are at most so long and come from points with coordinates of at most `reach`.
+/// Where that is 2^62 or more: infinite. Proof: P-70
+inline double side_error(double pair, double edge, double between, double reach) {
+  if (!(reach < 0x1p62)) return std::numeric_limits<double>::infinity();
+  const double lost = 0x1p-46 * reach;
+  return 0x1p-45 * ((pair + lost) * (edge + lost) * (between + lost)) + 0x1p-900;
 }
 
 }  // namespace sightline

@@ -1,14 +1,18 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 
 #include <sightline/kernel/predicates.h>
+#include <sightline/kernel/threads.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 namespace sightline {
 namespace {
+
+constexpr std::size_t most_planes = 64;  // bits of a word
 
 /// Planes with both polygons on them or in front: through an edge of one and a corner of the other, and around all of
 /// them; less a little of their distance.
@@ -55,6 +59,7 @@ std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Nea
   // Most of them are given by several corners.
   std::sort(planes.begin(), planes.end());
   planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  if (planes.size() > most_planes) planes.resize(most_planes);  // of polygons with many corners: any of them will do
   return planes;
 }
 
@@ -101,13 +106,17 @@ bool misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, doubl
 
 /// A segment in the coordinates of boxes, for proposals.
 struct Segment_of_boxes {
-  Triple from, along;
+  Triple from, inverse;  // of its length along each axis
+  std::array<bool, 3> is_flat;
   double slack;
 
   Segment_of_boxes(const Triple& p, const Triple& q, double to_boxes) {
+    Triple along;
     for (std::size_t k = 0; k < 3; ++k) {
       from[k] = p[k] * to_boxes;
       along[k] = (q[k] - p[k]) * to_boxes;
+      inverse[k] = 1 / along[k];
+      is_flat[k] = !std::isfinite(inverse[k]);
     }
     slack = 1e-12 * (sightline::size(from) + sightline::size(along));
   }
@@ -115,11 +124,11 @@ struct Segment_of_boxes {
     double enter = 0, leave = 1;
     for (std::size_t k = 0; k < 3; ++k) {
       const double low = box.low[k] - slack - from[k], high = box.high[k] + slack - from[k];
-      if (along[k] == 0) {
+      if (is_flat[k]) {
         if (low > 0 || high < 0) return false;
         continue;
       }
-      const double a = low / along[k], b = high / along[k];
+      const double a = low * inverse[k], b = high * inverse[k];
       enter = std::max(enter, std::min(a, b));
       leave = std::min(leave, std::max(a, b));
     }
@@ -138,21 +147,42 @@ bool same_plane(const Near_plane& g, const Near_plane& h) {
 
 Occluders::Occluders(const Scene& scene) : scene_(&scene), frame_(scene), boxes_(scene) {
   const Predicates predicates = scene.predicates();
-  for (const Piece& piece : scene.pieces()) {
+  for (const Piece& piece : scene.pieces())
     planes_.push_back(near_plane(frame_, predicates.coefficients(piece.support)));
-    first_.push_back(static_cast<std::uint32_t>(corners_.size()));
-    for (const Piece_corner& corner : scene.corners(piece)) corners_.push_back(near(corner.point));
-    const std::size_t begin = first_.back(), size = piece.size;
-    for (std::size_t i = 0; i < size; ++i)
-      edges_.push_back(pluecker_of_edge(corners_[begin + i], corners_[begin + (i + 1) % size]));
+  constexpr std::uint32_t nowhere = ~std::uint32_t{0};
+  first_.assign(scene.pieces().size(), nowhere);
+  for (const Piece_boxes::Chunk& chunk : boxes_.chunks()) {
+    const Piece& piece = scene.pieces()[chunk.piece];
+    std::uint32_t& first = first_[chunk.piece];
+    if (first == nowhere) {
+      first = static_cast<std::uint32_t>(corners_.size());
+      for (const Piece_corner& corner : scene.corners(piece)) corners_.push_back(near(corner.point));
+      for (std::size_t i = 0; i < piece.size; ++i)
+        edges_.push_back(pluecker_of_edge(corners_[first + i], corners_[first + (i + 1) % piece.size]));
+    }
+    entries_.push_back({planes_[chunk.piece].near, chunk.piece, first, piece.size});
   }
+  if (frame_.has_exact_points()) return;
+  rests_.resize(scene.points().size());
+  parallel_for(rests_.size(), [&](std::size_t p) {
+    const std::uint32_t point = static_cast<std::uint32_t>(p);
+    for (int k = 0; k < 3; ++k)
+      rests_[p][static_cast<std::size_t>(k)] = frame_.rest(grid(point, k), Integer(1), frame_.near(scene, point, k));
+  });
+}
+
+void Occluders::put_in_order(std::vector<std::uint32_t>& pieces) const {
+  if (entries_.size() == planes_.size()) return;
+  std::sort(pieces.begin(), pieces.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
 }
 
 Near_polygon Occluders::polygon(std::uint32_t piece) const {
   Near_polygon corners;
   for (const Piece_corner& corner : scene_->corners(scene_->pieces()[piece]))
-    corners.push_back(
-        {{grid(corner.point, 0), grid(corner.point, 1), grid(corner.point, 2), Integer(1)}, near(corner.point)});
+    corners.push_back({{grid(corner.point, 0), grid(corner.point, 1), grid(corner.point, 2), Integer(1)},
+                       near(corner.point),
+                       rest_of(corner.point)});
   return corners;
 }
 
@@ -178,23 +208,28 @@ std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Ne
   std::vector<std::uint32_t> found;
   struct Waiting {
     std::uint32_t node;
-    std::uint64_t inside;  // of which of the first planes its box is in front
+    std::uint64_t across;  // which planes may have a part of its box behind
   };
   std::vector<Waiting> stack;
-  if (!nodes.empty()) stack.push_back({0, 0});
+  if (!nodes.empty()) stack.push_back({0, shaft.empty() ? 0 : ~std::uint64_t{0} >> (most_planes - shaft.size())});
   // What one plane keeps away, it often does with the next one, too.
   std::size_t last = 0;
-  const auto any_plane = [&](auto keeps_away) {
-    for (std::size_t n = 0, i = last; n < shaft.size(); ++n, i = i + 1 < shaft.size() ? i + 1 : 0)
-      if (keeps_away(i)) {
-        last = i;
-        return true;
-      }
+  const auto any_of = [&](std::uint64_t planes, auto keeps_away) {
+    if ((planes >> last & 1) != 0) {
+      if (keeps_away(last)) return true;
+      planes ^= std::uint64_t{1} << last;
+    }
+    for (; planes != 0; planes &= planes - 1) {
+      const std::size_t i = static_cast<std::size_t>(std::countr_zero(planes));
+      if (!keeps_away(i)) continue;
+      last = i;
+      return true;
+    }
     return false;
   };
   while (!stack.empty()) {
     const std::uint32_t at = stack.back().node;
-    std::uint64_t inside = stack.back().inside;
+    std::uint64_t across = stack.back().across;
     stack.pop_back();
     const Piece_boxes::Node& node = nodes[at];
     // 1. The box: whether a plane keeps it away, and which ones no part of it.
@@ -203,45 +238,49 @@ std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Ne
       middle[k] = (node.box.low[k] / 2 + node.box.high[k] / 2);
       reach[k] = (node.box.high[k] / 2 - node.box.low[k] / 2);
     }
-    const auto is_inside = [&](std::size_t i) { return i < 64 && (inside >> i & 1) != 0; };
-    const bool away = any_plane([&](std::size_t i) {
-      if (is_inside(i)) return false;
+    const bool away = any_of(across, [&](std::size_t i) {
       const std::array<double, 4>& h = shaft[i];
       const double height = h[3] * to_boxes + h[0] * middle[0] + h[1] * middle[1] + h[2] * middle[2],
                    extent = std::fabs(h[0]) * reach[0] + std::fabs(h[1]) * reach[1] + std::fabs(h[2]) * reach[2];
-      if (i < 64 && height - extent >= 0) inside |= std::uint64_t{1} << i;
+      if (height - extent >= 0) across &= ~(std::uint64_t{1} << i);
       return height + extent < 0;
     });
     if (away) continue;
     // 2. Its parts.
     if (node.second != 0) {
-      stack.push_back({node.second, inside});
-      stack.push_back({at + 1, inside});
+      stack.push_back({node.second, across});
+      stack.push_back({at + 1, across});
       continue;
     }
-    for (std::uint32_t k = 0; k < node.count; ++k) {
-      const std::uint32_t piece = boxes_.chunks()[node.first + k].piece;
-      const std::span<const Triple> polygon = corners(piece);
+    for (const Entry& entry : entries_of(node)) {
+      const std::span<const Triple> polygon = corners_of(entry);
       const auto keeps_away = [&](std::size_t i) {
         const std::array<double, 4>& h = shaft[i];
-        return !is_inside(i) &&
-               std::all_of(polygon.begin(), polygon.end(), [&](const Triple& p) { return likely_value(h, p) < 0; });
+        return std::all_of(polygon.begin(), polygon.end(), [&](const Triple& p) { return likely_value(h, p) < 0; });
       };
-      if (!any_plane(keeps_away)) found.push_back(piece);
+      if (!any_of(across, keeps_away)) found.push_back(entry.piece);
     }
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  put_in_order(found);
   return found;
 }
 
-std::vector<std::uint32_t> Occluders::near_segment(const Triple& p, const Triple& q) const {
+std::vector<std::uint32_t> Occluders::near_segment(const Triple& p, const Triple& q, double margin) const {
   const Segment_of_boxes segment(p, q, frame_.to_boxes());
+  const Pluecker pluecker = pluecker_of_pair(p, q);
   std::vector<std::uint32_t> found;
   each_box([&](const Piece_boxes::Box& box) { return segment.is_near(box); },
-           [&](std::uint32_t piece) { found.push_back(piece); });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+           [&](const Entry& entry) {
+             const double at_p = likely_value(entry.plane, p), at_q = likely_value(entry.plane, q);
+             if (std::fabs(at_p) > margin && std::fabs(at_q) > margin) {
+               if ((at_p > 0) == (at_q > 0)) return;
+               const double sense = at_p > 0 ? 1 : -1;
+               for (const Pluecker& edge : edges_of(entry))
+                 if (sense * dot(pluecker, edge) < -margin) return;
+             }
+             found.push_back(entry.piece);
+           });
+  put_in_order(found);
   return found;
 }
 
@@ -251,17 +290,17 @@ std::optional<std::uint32_t> Occluders::on_segment(const Triple& p, const Triple
   const Pluecker pluecker = pluecker_of_pair(p, q);
   std::optional<std::uint32_t> found;
   each_box([&](const Piece_boxes::Box& box) { return !found && segment.is_near(box); },
-           [&](std::uint32_t piece) {
+           [&](const Entry& entry) {
              if (found) return;
-             const std::array<double, 4>& h = planes_[piece].near;
+             const std::array<double, 4>& h = entry.plane;
              const double at_p = likely_value(h, p), at_q = likely_value(h, q);
              if ((at_p > 0) == (at_q > 0)) return;
              const double sense = at_p > 0 ? 1 : -1;
-             const std::span<const Pluecker> all = edges(piece);
+             const std::span<const Pluecker> all = edges_of(entry);
              if (std::all_of(all.begin(), all.end(),
                              [&](const Pluecker& edge) { return sense * dot(pluecker, edge) > 0; }) &&
-                 accept(piece))
-               found = piece;
+                 accept(entry.piece))
+               found = entry.piece;
            });
   return found;
 }
@@ -307,18 +346,18 @@ std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple
         }
         return enter <= leave;
       },
-      [&](std::uint32_t piece) {
-        const std::array<double, 4>& h = planes_[piece].near;
+      [&](const Entry& entry) {
+        const std::array<double, 4>& h = entry.plane;
         const double height = likely_value(h, p),
                      slope = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2];
         const double at = -height / slope;
         if (!(at > 1e-9) || at >= nearest) return;
         const double sense = height > 0 ? 1 : -1;
-        const std::span<const Pluecker> all = edges(piece);
+        const std::span<const Pluecker> all = edges_of(entry);
         if (std::all_of(all.begin(), all.end(),
                         [&](const Pluecker& edge) { return sense * dot(pluecker, edge) >= 0; })) {
           nearest = at;
-          hit = Hit{piece, height > 0};
+          hit = Hit{entry.piece, height > 0};
         }
       });
   return hit;
@@ -335,8 +374,8 @@ std::optional<std::uint32_t> Occluders::blocker(const Near_point& p, const Near_
       [&](const Piece_boxes::Box& box) {
         return !found && overlap(box, around) && !misses(box, p.near, q.near, to_boxes);
       },
-      [&](std::uint32_t piece) {
-        if (!found && meets(piece, p, q, of_p, of_q, pair, near_pair)) found = piece;
+      [&](const Entry& entry) {
+        if (!found && meets(entry.piece, p, q, of_p, of_q, pair, near_pair)) found = entry.piece;
       });
   return found;
 }
@@ -354,7 +393,7 @@ void Occluders::each_box(Open open, Visit visit) const {
       stack[waiting++] = nodes[at].second;
       stack[waiting++] = at + 1;
     } else
-      for (std::uint32_t k = 0; k < nodes[at].count; ++k) visit(boxes_.chunks()[nodes[at].first + k].piece);
+      for (const Entry& entry : entries_of(nodes[at])) visit(entry);
   }
 }
 

@@ -40,6 +40,8 @@ class Occluders {
     return {grid(point, 0), grid(point, 1), grid(point, 2)};
   }
   Triple near_point_of(std::uint32_t point) const { return near(point); }
+  /// What its coordinates leave, as in Near_point.
+  Triple rest_of(std::uint32_t point) const { return rests_.empty() ? Triple{} : rests_[point]; }
   Near_polygon polygon(std::uint32_t piece) const;
   /// Where a piece is: side(h, polygon(piece)). Exact: yes.
   int side_of(std::uint32_t piece, const Near_plane& h) const;
@@ -48,11 +50,15 @@ class Occluders {
   }
 
   /// The pieces that may meet a segment between the two polygons: those that no plane beside both of them, nor a box,
-  /// keeps away. In doubles, for proposals.
+  /// keeps away; by rank. In doubles, for proposals.
   std::vector<std::uint32_t> near_shaft(const Near_polygon& s, const Near_polygon& t) const;
+  /// Of a piece in the tree of boxes: those that are near each other mostly have ranks that are.
+  std::uint32_t rank(std::uint32_t piece) const { return first_[piece]; }
 
-  /// The pieces whose boxes the segment from p to q meets, and some more, sorted. In doubles, for proposals.
-  std::vector<std::uint32_t> near_segment(const Triple& p, const Triple& q) const;
+  /// The pieces that the segment from p to q may cross, by rank: but for those with both ends on one side, and those
+  /// that it passes outside an edge, by more than `margin` of the plane's value or the edge's. In doubles, for
+  /// proposals.
+  std::vector<std::uint32_t> near_segment(const Triple& p, const Triple& q, double margin) const;
   /// Of the pieces that the segment from p to q crosses, inside all of their edges, the first one that is accepted. In
   /// doubles, for proposals.
   std::optional<std::uint32_t> on_segment(const Triple& p, const Triple& q,
@@ -80,6 +86,20 @@ class Occluders {
                                        const Near_plane& of_q) const;
 
  private:
+  /// A piece for those who walk the tree of boxes.
+  struct Entry {
+    std::array<double, 4> plane;  // as in Near_plane
+    std::uint32_t piece, first, size;
+  };
+  std::span<const Entry> entries_of(const Piece_boxes::Node& node) const {
+    return {entries_.data() + node.first, node.count};
+  }
+  std::span<const Pluecker> edges_of(const Entry& entry) const { return {edges_.data() + entry.first, entry.size}; }
+  std::span<const Triple> corners_of(const Entry& entry) const { return {corners_.data() + entry.first, entry.size}; }
+
+  /// By rank, each once: as they come from the tree, but for those with several chunks.
+  void put_in_order(std::vector<std::uint32_t>& pieces) const;
+
   Integer grid(std::uint32_t point, int axis) const { return scene_->points().integer(point, axis); }
   Triple near(std::uint32_t point) const {
     return {frame_.near(*scene_, point, 0), frame_.near(*scene_, point, 1), frame_.near(*scene_, point, 2)};
@@ -95,7 +115,9 @@ class Occluders {
   Near_frame frame_;
   Piece_boxes boxes_;
   std::vector<Near_plane> planes_;
-  std::vector<std::uint32_t> first_;
+  std::vector<Triple> rests_;         // by point; none where all are 0
+  std::vector<Entry> entries_;        // of the chunks of boxes_, one for each
+  std::vector<std::uint32_t> first_;  // by piece, in the two that follow: in the order of the tree
   std::vector<Triple> corners_;
   std::vector<Pluecker> edges_;
 };

@@ -1,8 +1,8 @@
 // ---- Where one looks from
 
 const usualAway = data.away || unit([-0.6, -1.1, 0.7]);  // as the program's own pictures
-/// From the eye one turns the look; else one goes round a point.
-const camera = {atEye: false, target: [0, 0, 0], distance: 1, yaw: 0, pitch: 0, field: 45};
+/// From the eye one turns the look; else one goes round a point. `isMoved`: by hand or by keys, since it was set.
+const camera = {atEye: false, target: [0, 0, 0], distance: 1, yaw: 0, pitch: 0, field: 45, isMoved: false};
 
 /// Far away a place is as good at a thousand times the scene's size.
 function eyeFor(place) {
@@ -22,7 +22,7 @@ function setDirection(d) {
   camera.pitch = Math.max(-1.5706, Math.min(1.5706, Math.asin(Math.max(-1, Math.min(1, u[2])))));
 }
 function goRound() {
-  camera.atEye = false;
+  camera.isMoved = camera.atEye = false;
   camera.target = bounds.middle.slice();
   camera.field = 40;
   camera.distance = 1.05 * bounds.radius / Math.sin(camera.field * Math.PI / 360);
@@ -55,6 +55,7 @@ function extent(place, ahead) {
 /// To the command's eye, with all of the scene in view where that is within 100 degrees.
 function goToEye() {
   if (!eyePlace) return goRound();
+  camera.isMoved = false;
   camera.atEye = true;
   const ahead = minus(bounds.middle, eyePlace), distance = lengthOf(ahead);
   if (distance > 0) setDirection(ahead);
@@ -104,17 +105,20 @@ function onCanvas(p, frame) {
 /// The scene goes with the hand: by so many radians to the right, and downwards; from the eye, where the field is 60 degrees.
 function turn(right, down) {
   const s = camera.atEye ? camera.field / 60 : 1;
+  camera.isMoved = true;
   camera.yaw += camera.atEye ? s * right : -right;
   camera.pitch = Math.max(-1.5706, Math.min(1.5706, camera.pitch + s * down));
   redraw();
 }
 function closer(factor) {
+  camera.isMoved = true;
   if (camera.atEye) camera.field = Math.max(0.5, Math.min(120, camera.field / factor));
   else camera.distance = Math.max(1e-3 * bounds.radius, Math.min(60 * bounds.radius, camera.distance / factor));
   redraw();
 }
 function shift(right, down) {
   if (camera.atEye) return turn(right, down);
+  camera.isMoved = true;
   const frame = cameraFrame(), s = camera.distance * Math.tan(camera.field * Math.PI / 360) * 2;
   camera.target = add(camera.target, add(times(-right * s * aspect(), frame.right), times(down * s, frame.up)));
   redraw();

@@ -168,7 +168,7 @@ function begin() {
   listenToHands();
   listenToKeys();
   paint();
-  new ResizeObserver(() => { if (camera.atEye && command.beginsAtEye && frames < 2) goToEye(); redraw(); }).observe(canvas);
+  new ResizeObserver(() => { if (camera.atEye && command.beginsAtEye && frames < 2 && !camera.isMoved) goToEye(); redraw(); }).observe(canvas);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { if (command.sphereChanged) command.sphereChanged(); redraw(); });
 }
 begin();

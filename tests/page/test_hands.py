@@ -199,6 +199,24 @@ def test_buttons_say_whether_they_are_pressed(open_page):
     assert state()["From the eye"] == "true" and of() == begun
 
 
+def test_a_canvas_that_is_measured_late_does_not_take_back_what_a_key_did(open_page, browser):
+    measured = "const Observer = ResizeObserver; ResizeObserver = class { constructor(done) { this.done = done; }" \
+               " observe(canvas) { new Observer(() => { window.measure = this.done; }).observe(canvas); } }; requestAnimationFrame = () => {};"
+    script = browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": measured})
+    try:
+        page = open_page("order", cube, "--eye=3,4,5")
+        begun = page.js(camera)
+        page.press("ArrowUp")
+        turned = page.js(camera)
+        page.browser.execute_async_script("const done = arguments[0], ask = () => window.measure ? done() : setTimeout(ask, 5); ask()")
+        page.js("window.measure()")
+        assert page.js(camera) == turned != begun
+        page.press("Home")
+        assert page.js(camera) == begun
+    finally:
+        browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", {"identifier": script["identifier"]})
+
+
 def test_keys_are_left_to_fields_buttons_and_the_browser(open_page, browser):
     page = open_page("order", cube, "--eye=3,4,5")
 

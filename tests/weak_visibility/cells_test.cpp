@@ -52,7 +52,7 @@ class Cell_of_a_line {
     cell_ = {&domain_, &lines_, &occluders_->frame(), {}};
     std::size_t wrong = 0, place = 0;
     for (std::uint32_t line = 0; line < lines_.size(); ++line) {
-      const int sign = sgn(dot(pair, lines_[line].exact));
+      const int sign = sgn(dot(pair, lines_[line].exact()));
       if (sign == 0 || random.chance(1, 3)) continue;
       const Side_row& row = domain_.row(lines_, line, occluders_->frame());
       wrong += row.decided == -sign;
@@ -130,7 +130,7 @@ TEST(Cell_proofs_of_cells_without_a_line, hold_where_their_sum_is_zero_for_some_
   for (std::size_t k = 0; k < 2; ++k) {
     const Side_row& row = domain.row(lines, edges[k], occluders.frame());
     ASSERT_EQ(row.decided, 0);
-    cell.rows.push_back({k, {edges[k], (k == 0 ? 1 : -1) * sgn(dot(right, lines[edges[k]].exact))}, &row});
+    cell.rows.push_back({k, {edges[k], (k == 0 ? 1 : -1) * sgn(dot(right, lines[edges[k]].exact()))}, &row});
   }
   Weak_counters counters;
   std::vector<Multiplier> by_basis, by_game;
@@ -196,7 +196,7 @@ TEST(Touching_lines, are_where_a_four_edge_determinant_has_a_double_root) {
       EXPECT_GE(line.met.size(), 4u);
       for (const Exact_pluecker& met : line.met) EXPECT_EQ(dot(pair, met), 0);
       for (const Line_cell::Row& row : plates.cell.rows) {
-        const int side = row.literal.sign * sgn(dot(pair, (*plates.cell.lines)[row.literal.line].exact));
+        const int side = row.literal.sign * sgn(dot(pair, (*plates.cell.lines)[row.literal.line].exact()));
         EXPECT_GE(side, 0);
         strict += side > 0;
       }

@@ -1,7 +1,10 @@
 // Sides in doubles where doubles end: coordinates of all exponents, mixed, against integers.
 
+#include "scenes.h"
+
 #include <sightline/algorithms/verify/weak.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/search/line_cell.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/harness/generate/families.h>
 
@@ -121,7 +124,143 @@ TEST(Side_error, bounds_the_sides_of_edges_for_coordinates_of_all_exponents) {
   EXPECT_GT(told, 500u);
 }
 
+TEST(Near_point, and_what_it_leaves_are_its_coordinates_twice_as_exactly) {
+  std::size_t left = 0;
+  in_each_mixed_scene([&](std::uint64_t seed, const Occluders& occluders, const Weak_source& source) {
+    const Rational unit = occluders.frame().unit();
+    for (std::uint32_t f = 0; f <= occluders.scene().pieces().size(); ++f)
+      for (const Near_point& p : f < occluders.scene().pieces().size() ? occluders.polygon(f) : source.polygon)
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (!std::isfinite(p.near[k])) continue;
+          const Rational true_one = Rational(p.exact[k], p.exact[3]) / unit,
+                         error = abs(sightline::exact(p.near[k]) + sightline::exact(p.rest[k]) - true_one);
+          ASSERT_LE(error, abs(true_one) * power_of_two(-104) + power_of_two(-1074)) << seed;
+          left += p.rest[k] != 0;
+        }
+  });
+  EXPECT_GT(left, 100u);
+}
+
+/// How many rows are undecided and how many decided, each of them as integers say.
+std::array<std::size_t, 2> rows_as_integers_say(const Occluders& occluders, const Weak_source& source) {
+  std::array<std::size_t, 2> rows{};
+  Edge_lines lines(occluders);
+  for (std::uint32_t target = 0; target < occluders.scene().pieces().size(); ++target) {
+    Line_domain domain(std::make_shared<const Near_polygon>(source.polygon),
+                       std::make_shared<const Near_polygon>(occluders.polygon(target)));
+    for (std::uint32_t f = 0; f < occluders.scene().pieces().size(); ++f)
+      for (const Edge_lines::Edge& edge : lines.of(f)) {
+        const Side_row& row = domain.row(lines, edge.line, occluders.frame());
+        const std::vector<Rational>& sides = domain.exact_sides(lines, edge.line, occluders.frame());
+        const bool positive = std::any_of(sides.begin(), sides.end(), [](const Rational&x) { return x > 0; }),
+                   negative = std::any_of(sides.begin(), sides.end(), [](const Rational&x) { return x < 0; });
+        EXPECT_EQ(row.decided, positive == negative ? 0 : positive ? 1 : -1);
+        ++rows[row.decided != 0];
+        if (row.decided != 0) continue;
+        for (std::size_t c = 0; c < sides.size(); ++c) {
+          const double value = row.values[c];
+          EXPECT_TRUE(std::isfinite(value) &&
+                      abs(sightline::exact(value) - times_power(sides[c], row.exponent)) <= sightline::exact(row.error))
+              << value << ' ' << row.error;
+        }
+      }
+  }
+  return rows;
+}
+
+TEST(Side_row, is_that_of_integers_within_its_error_for_coordinates_of_all_exponents) {
+  std::array<std::size_t, 2> rows{};
+  in_each_mixed_scene([&](std::uint64_t seed, const Occluders& occluders, const Weak_source& source) {
+    SCOPED_TRACE(seed);
+    const std::array<std::size_t, 2> more = rows_as_integers_say(occluders, source);
+    for (std::size_t k = 0; k < 2; ++k) rows[k] += more[k];
+  });
+  EXPECT_GT(rows[0], 1000u);
+  EXPECT_GT(rows[1], 1000u);
+}
+
+/// Triangles of size 1: about the origin, of doubles that use all of their bits; and so far away that doubles have no
+/// eighths, in thirds: all that tells their corners apart is in what doubles leave.
+TEST(Side_row, of_small_faces_near_and_far_is_that_of_integers_within_its_error) {
+  weak_scenes::Random random(7);
+  for (const auto& [far, steps] : {std::pair{0ul, 1ul << 53}, {1000000000000000ul, 3 * 1024ul}}) {
+    std::size_t undecided = 0;
+    for (int scene_number = 0; scene_number < 20; ++scene_number) {
+      std::vector<weak_scenes::Points> faces;
+      for (const unsigned long z : {4, 3, 2, 1}) {
+        weak_scenes::Points corners;
+        for (int k = 0; k < 3; ++k) {
+          std::array<Rational, 3> p;
+          for (Rational& x : p) {
+            const unsigned long drawn = random.below(steps);
+            x = Rational(far) + Rational(drawn, steps);
+          }
+          corners.push_back(weak_scenes::at(p[0], p[1], p[2] + z));
+        }
+        faces.push_back(corners);
+      }
+      faces.push_back(weak_scenes::rectangle(0, 1, 0, 1, 0));
+      const Scene scene(weak_scenes::soup_of(faces));
+      if (scene.pieces().size() < 5) continue;
+      ASSERT_EQ(Near_frame(scene).has_exact_points(), far == 0 && scene.points().bits() <= 53);
+      const Occluders occluders(scene);
+      undecided += rows_as_integers_say(occluders, weak_source(occluders, 3))[0];
+    }
+    EXPECT_GT(undecided, 100u);
+  }
+}
+
+TEST(Side_row, of_a_source_beyond_doubles_products_is_rounded_from_integers) {
+  const Rational huge = power_of_two(600);
+  const Scene scene(
+      weak_scenes::soup_of({weak_scenes::rectangle(-1, 1, -1, 1, 1), weak_scenes::rectangle(0, 1, 0, 1, 2)}));
+  const Occluders occluders(scene);
+  const weak_scenes::Points corners = weak_scenes::rectangle(-huge, huge, -huge, huge, huge);
+  EXPECT_GT(rows_as_integers_say(occluders, weak_source(occluders, corners))[0], 4u);
+}
+
+/// Faces of a millionth of the scene's size, far from its middle: ways between their points are as exact as if they
+/// were all that there is.
+TEST(Side_row, of_small_faces_far_from_the_middle_takes_no_integers) {
+  const auto square = [](long x, long y, long z) { return weak_scenes::rectangle(x, x + 3, y, y + 3, z); };
+  const long far = 10000000;
+  const Scene scene(weak_scenes::soup_of({square(far, 0, 10), square(far + 1, 1, 5), square(-far, 0, 0)}));
+  const Occluders occluders(scene);
+  Edge_lines lines(occluders);
+  Line_domain domain(std::make_shared<const Near_polygon>(occluders.polygon(0)),
+                     std::make_shared<const Near_polygon>(weak_source(occluders, square(far, 0, 0)).polygon));
+  for (const Edge_lines::Edge& edge : lines.of(1)) {
+    const Side_row& row = domain.row(lines, edge.line, occluders.frame());
+    EXPECT_NE(row.error, 0x1p-52);  // what integers leave
+    EXPECT_LT(row.error, 0x1p-35);
+    EXPECT_FALSE(lines[edge.line].made);
+  }
+}
+
+/// A wall of tiles between two squares: lines meet those of the same place, and just so their neighbours.
+TEST(Occluders, near_a_shaft_are_those_that_its_planes_do_not_keep_away) {
+  const auto tile = [](long x, long y, long z) {
+    return weak_scenes::rectangle(10 * x, 10 * x + 10, 10 * y, 10 * y + 10, z);
+  };
+  std::vector<weak_scenes::Points> faces;
+  for (long x = -10; x <= 10; ++x)
+    for (long y = -10; y <= 10; ++y) faces.push_back(tile(x, y, 50));
+  faces.push_back(weak_scenes::rectangle(1, 9, 1, 9, 100));
+  const Scene scene(weak_scenes::soup_of(faces));
+  const Occluders occluders(scene);
+  const std::uint32_t last = static_cast<std::uint32_t>(faces.size() - 1);
+  const auto near = [&](const weak_scenes::Points& source) {
+    return occluders.near_shaft(weak_source(occluders, source).polygon, occluders.polygon(last));
+  };
+  const std::uint32_t middle = 10 * 21 + 10;
+  EXPECT_EQ(near(weak_scenes::rectangle(1, 9, 1, 9, 0)), (std::vector<std::uint32_t>{middle, last}));
+  EXPECT_EQ(near(weak_scenes::rectangle(11, 19, 1, 9, 0)), (std::vector<std::uint32_t>{middle, middle + 21, last}));
+  EXPECT_EQ(near(weak_scenes::rectangle(-59, -51, 41, 49, 0)), (std::vector<std::uint32_t>{middle - 3 * 21 + 2, last}));
+}
+
 TEST(Side_error, is_infinite_where_products_might_be) {
+  EXPECT_TRUE(std::isinf(side_error(1, 1, 1, 0x1p62)));
+  EXPECT_TRUE(std::isinf(side_error(1, 1, 1, std::numeric_limits<double>::infinity())));
   EXPECT_TRUE(std::isinf(side_error(ends(0x1p64, 0), ends(0, 0))));
   EXPECT_TRUE(std::isinf(side_error(ends(1, std::numeric_limits<double>::infinity()), ends(1, 1))));
   EXPECT_LT(side_error(ends(0x1p62, 1), ends(1, 1)), 1e-10 * 0x1p62);

@@ -18,8 +18,8 @@ std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occluders& occ
     if (!Edge_lines::coplanar(a, b)) return {};
     const auto direction = [](const Exact_pluecker& l) { return std::array<Integer, 3>{l[0], l[1], l[2]}; };
     const std::array<Integer, 3> p = occluders.grid_point(a.points[0]), q = occluders.grid_point(b.points[0]);
-    std::array<Integer, 3> normal = cross(direction(a.exact), direction(b.exact));
-    if (is_zero(normal)) normal = cross(direction(a.exact), minus(q, p));  // parallel, and not the same line
+    std::array<Integer, 3> normal = cross(direction(a.exact()), direction(b.exact()));
+    if (is_zero(normal)) normal = cross(direction(a.exact()), minus(q, p));  // parallel, and not the same line
     if (is_zero(normal)) return {};
     return near_plane(occluders.frame(), {normal[0], normal[1], normal[2], Integer(-dot(normal, p))});
   };

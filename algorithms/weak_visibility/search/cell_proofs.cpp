@@ -215,7 +215,7 @@ bool Cell_proofs::is_proof(const Line_cell& cell, const std::vector<Weighted>& w
 bool Cell_proofs::corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, bool source,
                                std::vector<Multiplier>& proof) const {
   const auto direction = [&](std::size_t k) {
-    const Exact_pluecker& l = line_of(cell, rows[k % 3]).exact;
+    const Exact_pluecker& l = line_of(cell, rows[k % 3]).exact();
     return std::array<Integer, 3>{l[0], l[1], l[2]};
   };
   if (sgn(dot(direction(0), cross(direction(1), direction(2)))) == 0) return false;  // in one plane, or parallel

@@ -11,6 +11,12 @@ Line_domain::Line_domain(Shared_polygon s, Shared_polygon t)
   for (const Near_point& p : source) source_size = std::max(source_size, size(p.near));
   for (const Near_point& q : target) target_size = std::max(target_size, size(q.near));
   pairs = pairs_of(source, target);
+  ways.reserve(pairs.size());
+  for (const Near_point& p : source)
+    for (const Near_point& q : target) {
+      ways.push_back(way_between(p.near, p.rest, q.near, q.rest));
+      longest = std::max(longest, size(ways.back()));
+    }
 }
 
 const Exact_pluecker& Line_domain::exact_pluecker_of(std::size_t c) {
@@ -21,7 +27,7 @@ const Exact_pluecker& Line_domain::exact_pluecker_of(std::size_t c) {
 }
 
 Rational Line_domain::exact_side(const Edge_lines::Edge_line& line, std::size_t c, const Near_frame& frame) {
-  return frame.near_cubic(dot(exact_pluecker_of(c), line.exact), weight_of(c));
+  return frame.near_cubic(dot(exact_pluecker_of(c), line.exact()), weight_of(c));
 }
 
 Integer Line_domain::weight_of(std::size_t c) const {
@@ -44,12 +50,18 @@ Side_row& Line_domain::row_at(const Edge_lines& lines, std::uint32_t id, const N
 Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame& frame) {
   Side_row r;
   r.values.reserve(pairs.size());
-  double most = 0;
-  for (const Pluecker& pair : pairs) {
-    r.values.push_back(dot(pair, line.near));
-    most = std::max(most, std::fabs(r.values.back()));
+  double most = 0, between = 0;
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    const Triple to_line = way_between(source[i].near, source[i].rest, line.from, line.rest),
+                 moment = cross(line.along, to_line);
+    between = std::max(between, size(to_line));
+    for (std::size_t j = 0; j < target.size(); ++j) {
+      const Triple& way = ways[i * target.size() + j];
+      r.values.push_back(moment[0] * way[0] + moment[1] * way[1] + moment[2] * way[2]);
+      most = std::max(most, std::fabs(r.values.back()));
+    }
   }
-  r.error = side_error(ends(source_size, target_size), line.ends);
+  r.error = side_error(longest, size(line.along), between, source_size + target_size + line.reach);
   // 1. One side on all pairs? Integers are asked only if doubles do not show both signs.
   bool positive = false, negative = false;
   for (const double v : r.values) {
@@ -59,14 +71,14 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
   std::vector<std::size_t> zeros;
   for (std::size_t c = 0; c < r.values.size() && !(positive && negative); ++c) {
     if (std::fabs(r.values[c]) > r.error) continue;
-    const int sign = sgn(dot(exact_pluecker_of(c), line.exact));
+    const int sign = sgn(dot(exact_pluecker_of(c), line.exact()));
     positive |= sign > 0;
     negative |= sign < 0;
     if (sign == 0) zeros.push_back(c);
   }
   r.decided = positive == negative ? 0 : positive ? 1 : -1;
   // 2. At most 1. Where it is decided nobody asks for more than its sign.
-  if (most >= 0x1p30 * r.error) {
+  if (std::isfinite(r.error) && most >= 0x1p30 * r.error) {
     r.exponent = -std::ilogb(most) - 1;
     const double scale = std::ldexp(1.0, static_cast<int>(r.exponent));
     for (double& v : r.values) v *= scale;
@@ -75,7 +87,7 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
     std::vector<Integer> sides;
     long largest = std::numeric_limits<long>::min();
     for (std::size_t c = 0; c < pairs.size(); ++c) {
-      sides.push_back(dot(exact_pluecker_of(c), line.exact));
+      sides.push_back(dot(exact_pluecker_of(c), line.exact()));
       if (sgn(sides[c]) != 0) largest = std::max(largest, frame.exponent_of_cubic(sides[c], weight_of(c)));
     }
     r.exponent = largest == std::numeric_limits<long>::min() ? 0 : -largest;

@@ -29,6 +29,7 @@ struct Candidate {
   std::uint32_t piece;
   int sense;    ///< 1: source in front and target behind, -1: the other way round, 0: one of them is on both sides
   float share;  ///< of all lines, that it blocks, by samples
+  std::uint32_t edge = 0;  ///< the one that the last line passed outside
 };
 
 /// Two convex polygons, the sides of lines on them, and what may come between. The lines from the one to the other are
@@ -53,6 +54,8 @@ struct Line_domain {
   const Near_polygon &source, &target;
   double source_size = 0, target_size = 0;
   std::vector<Pluecker> pairs;
+  std::vector<Triple> ways;                 ///< of pairs, from source to target
+  double longest = 0;                       ///< of them
   std::vector<Exact_pluecker> exact_pairs;  ///< once they are asked for
   std::vector<std::unique_ptr<Side_row>> rows;
   std::vector<Candidate> candidates;  ///< once they are asked for: `settled`

@@ -143,7 +143,7 @@ void Line_search::settle(Line_domain& domain) const {
       if (s == 0 || t == 0 || (s == t && s != both_sides)) continue;
       if (s != both_sides && t != both_sides) sense = s;
     }
-    domain.candidates[kept++] = {candidate.piece, sense, candidate.share};
+    domain.candidates[kept++] = {candidate.piece, sense, candidate.share, candidate.edge};
   }
   domain.candidates.resize(kept);
 }
@@ -391,17 +391,19 @@ void Line_search::for_each_blocker(Line_domain& domain, const Line_weights& line
       if (is_in_the_way(domain, line, p, q, pluecker, candidate) && !visit(candidate)) return;
     return;
   }
-  auto next = candidates.begin();  // both are sorted
-  for (const std::uint32_t piece : occluders_->near_segment(p, q)) {
-    next = std::lower_bound(next, candidates.end(), piece,
-                            [](const Candidate& candidate, std::uint32_t id) { return candidate.piece < id; });
+  auto next = candidates.begin();  // both are by rank
+  for (const std::uint32_t piece : occluders_->near_segment(p, q, close)) {
+    const std::uint32_t rank = occluders_->rank(piece);
+    next = std::lower_bound(next, candidates.end(), rank, [&](const Candidate& candidate, std::uint32_t least) {
+      return occluders_->rank(candidate.piece) < least;
+    });
     if (next == candidates.end()) return;
     if (next->piece == piece && is_in_the_way(domain, line, p, q, pluecker, *next) && !visit(*next)) return;
   }
 }
 
 bool Line_search::is_in_the_way(Line_domain& domain, const Line_weights& line, const Triple& p, const Triple& q,
-                                const Pluecker& pluecker, const Candidate& candidate) {
+                                const Pluecker& pluecker, Candidate& candidate) {
   int sense = candidate.sense;
   if (sense == 0) {
     const std::array<double, 4>& h = occluders_->plane(candidate.piece).near;
@@ -410,14 +412,22 @@ bool Line_search::is_in_the_way(Line_domain& domain, const Line_weights& line, c
     sense = from > 0 ? 1 : -1;
   }
   const std::span<const Pluecker> edges = occluders_->edges(candidate.piece);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
+  const auto is_inside = [&](std::size_t e) {
     double height = dot(pluecker, edges[e]);
     if (std::fabs(height) < close) {
       const Edge_lines::Edge edge = edge_lines(candidate.piece)[e];
       height = edge.sense * height_of(domain, edge.line, line);
     }
-    if (!(sense * height > 0)) return false;
-  }
+    return sense * height > 0;
+  };
+  // The edge that the last line passed outside, this one mostly does, too.
+  const std::size_t last = candidate.edge;
+  if (!is_inside(last)) return false;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (e != last && !is_inside(e)) {
+      candidate.edge = static_cast<std::uint32_t>(e);
+      return false;
+    }
   return true;
 }
 
@@ -428,6 +438,7 @@ void Line_search::find_blockers(std::uint32_t d, const Line_weights& line, std::
     blockers.push_back(blocker);
     return !one;
   });
+  std::sort(blockers.begin(), blockers.end(), [](const Candidate& a, const Candidate& b) { return a.piece < b.piece; });
 }
 
 double Line_search::height_of(Line_domain& domain, std::uint32_t line, const Line_weights& weights) const {

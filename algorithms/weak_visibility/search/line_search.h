@@ -136,11 +136,11 @@ class Line_search {
 
   /// Whether a line, from p to q, meets a piece, by doubles. Close to an edge, its own row of the domain tells more.
   bool is_in_the_way(Line_domain& domain, const Line_weights& line, const Triple& p, const Triple& q,
-                     const Pluecker& pluecker, const Candidate& candidate);
+                     const Pluecker& pluecker, Candidate& candidate);
   /// The candidates that a line meets, in order, while `visit` says so.
   template <class Visit>
   void for_each_blocker(Line_domain& domain, const Line_weights& line, Visit visit);
-  /// All of them, or one where that is enough. Senses are those that the domain has.
+  /// All of them, by their numbers, or one where that is enough. Senses are those that the domain has.
   void find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one);
   double height_of(Line_domain& domain, std::uint32_t line, const Line_weights& weights) const;
 

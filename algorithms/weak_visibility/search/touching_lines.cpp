@@ -60,7 +60,7 @@ std::vector<Bound> bounds_of(const Line_cell& cell) {
   std::vector<Bound> bounds;
   for (const Line_cell::Row& row : cell.rows) {
     const Edge_lines::Edge_line& line = (*cell.lines)[row.literal.line];
-    bounds.push_back({line.exact, line.near, row.literal.sign});
+    bounds.push_back({line.exact(), line.near, row.literal.sign});
   }
   for (const Near_polygon* polygon : {&cell.domain->source, &cell.domain->target})
     for (std::size_t i = 0; i < polygon->size(); ++i) {
