@@ -88,7 +88,6 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
   settle(domain);
   counters_->occluders += domain.candidates.size();
   if (try_rays(d)) return {Weak_status::visible, 0, {}};
-  weigh_candidates(d);
   return refute(d, 0);
 }
 
@@ -149,31 +148,24 @@ void Line_search::settle(Line_domain& domain) const {
 }
 
 bool Line_search::try_rays(std::uint32_t d) {
-  const Line_domain& domain = *domains_[d];
-  std::vector<Candidate> blockers;
-  for (int k = 0; k < options_->rays && !out_of_time(); ++k) {
+  constexpr std::size_t most = 8;  // with four times as many some searches take a twentieth less cells, and longer
+  Line_domain& domain = *domains_[d];
+  const std::size_t samples = std::min(most, domain.candidates.size() / 8),
+                    rays = static_cast<std::size_t>(std::max(0, options_->rays));
+  for (std::size_t k = 0; k < std::max(samples, rays) && !out_of_time(); ++k) {
     const Line_weights line = k == 0 ? Line_weights::middle(domain) : random_line(domain);
-    find_blockers(d, line, blockers, true);
-    if (!blockers.empty()) continue;
-    if (!confirm(domain, line)) {
+    bool is_free = true;
+    for_each_blocker(domain, line, [&](Candidate& blocker) {
+      is_free = false;
+      if (k < samples) blocker.share += 1 / static_cast<float>(samples);
+      return k < samples;
+    });
+    if (is_free && k < rays && !confirm(domain, line)) {
       ++counters_->by_rays;
       return true;
     }
   }
   return false;
-}
-
-void Line_search::weigh_candidates(std::uint32_t d) {
-  constexpr std::size_t most = 8;  // with four times as many some searches take a twentieth less cells, and longer
-  Line_domain& domain = *domains_[d];
-  const std::size_t samples = std::min(most, domain.candidates.size() / 8);
-  for (std::size_t k = 0; k < samples; ++k)
-    for_each_blocker(domain, random_line(domain), [](Candidate& blocker) {
-      ++blocker.share;
-      return true;
-    });
-  if (samples != 0)
-    for (Candidate& candidate : domain.candidates) candidate.share /= static_cast<float>(samples);
 }
 
 Line_weights Line_search::random_line(const Line_domain& domain, int power) {

@@ -87,10 +87,9 @@ class Line_search {
   /// Forgets candidates that cannot come between, and notes from which side the others do.
   void settle(Line_domain& domain) const;
 
+  /// Whether one of some lines is free, to begin with that of middles. Notes how much each candidate blocks, by the
+  /// first of them; the fewer candidates, the fewer samples.
   bool try_rays(std::uint32_t d);
-
-  /// Notes how much each candidate blocks, by samples; the fewer there are, the fewer samples.
-  void weigh_candidates(std::uint32_t d);
   /// The higher the power, the nearer to a pair of vertices.
   Line_weights random_line(const Line_domain& domain, int power = 3);
 
