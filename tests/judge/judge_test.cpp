@@ -458,9 +458,11 @@ TEST(Explanation, of_what_an_eye_sees_names_a_line_and_a_share_of_all_directions
   EXPECT_EQ(shown.refutation->by, Face_id{0});
   EXPECT_EQ((shown.refutation->at == Exact_point{0, 0, -1}), true);
   EXPECT_EQ(shown.share, 0);
+  EXPECT_NE(shown.share_words.find(" leaves out; hidden faces that it shows"), std::string::npos);
 
   const Explanation both = explained(soup, middle, "1\n");
   EXPECT_EQ(both.refutation->face, 0u);
+  EXPECT_NE(both.share_words.find(" leaves out, and hidden faces that it shows"), std::string::npos);
   EXPECT_EQ(explained(soup, middle, "1\n", Contract::aggressive).refutation->face, 1u);
   EXPECT_EQ(explained(soup, question(Question::see, {0, 0, -5}), "0\n").refutation->words, "the eye is behind face 0");
 }
@@ -474,6 +476,21 @@ TEST(Explanation, of_faces_in_one_plane_finds_the_part_that_is_anothers) {
   EXPECT_EQ(why.refutation->face, 1u);
   EXPECT_LE(why.refutation->to[0], 2);
   EXPECT_GE(why.refutation->to[0], 0);
+
+  // Where one is within the other, what is seen there is called one's; left out, each is found.
+  Polygon_soup within;
+  add_square(within, 0, 0);
+  const Rational half(1, 2);
+  within.add_face({within.add_point(-half, -half, 0), within.add_point(half, -half, 0), within.add_point(half, half, 0),
+                   within.add_point(-half, half, 0)});
+  for (const bool two_sided : {false, true})
+    for (const Face_id left_out : {0u, 1u}) {
+      const Query query = question(Question::see, {0, 0, two_sided ? -1 : 1}, two_sided);
+      const Explanation whose = explained(within, query, left_out == 0 ? "1\n" : "0\n");
+      ASSERT_TRUE(whose.refutation) << left_out;
+      EXPECT_EQ(whose.refutation->face, left_out);
+      EXPECT_NEAR(whose.share, left_out == 0 ? 1.0 / 6 : 4 * std::asin(1.0 / 5) / (4 * 3.14159265358979), 1e-12);
+    }
 }
 
 TEST(Explanation, of_an_order_names_a_direction_in_which_it_is_wrong) {
@@ -552,7 +569,23 @@ TEST(Guess, of_neighbours_says_no_more_than_they_do) {
   EXPECT_EQ(words({{0, false}, {1, false}, {millionth, true}, {-millionth, true}}),
             "wrong when moved by 2^-20 of the scene's size, right when moved by nothing: it does not come from being "
             "exactly degenerate");
+  EXPECT_EQ(words({{1, true}, {0, true}, {-millionth, false}}),
+            "wrong when moved to the one side (+), as far as one ulp, right when moved to the opposite one: no "
+            "tolerance explains that");
   EXPECT_EQ(words({{0, false}}), "");
+}
+
+TEST(Guess, of_each_reading_has_words_of_its_own) {
+  std::set<std::string> all;
+  std::size_t readings = 0;
+  for (int k = 0; k <= static_cast<int>(Reading::swapped); ++k, ++readings) {
+    const std::string words = words_of(static_cast<Reading>(k), false);
+    EXPECT_EQ(words.rfind("as if ", 0), 0u) << k;
+    all.insert(words);
+  }
+  EXPECT_EQ(all.size(), readings);
+  EXPECT_EQ(words_of(Reading::other_sides, false), "as if faces seen from behind counted too");
+  EXPECT_EQ(words_of(Reading::other_sides, true), "as if only fronts counted");
 }
 
 TEST(Guess, of_concave_faces_wants_both_kinds) {
@@ -758,6 +791,10 @@ TEST(Rays, that_are_answered_wrongly_are_explained_and_guessed_about) {
   EXPECT_EQ(why("none\n1\n0\n").refutation->face, 1u);
   EXPECT_EQ(why("none\n1\n0\n", Contract::aggressive).refutation->words,
             "ray 2, from (0, 0, 1) towards (0, 0, 1), meets nothing");
+  const Query along = rays({{{-5, 0, 0}, {1, 0, 0}}});
+  const Answer none = read_answer("none\n", Question::trace, 2, 1);
+  EXPECT_EQ(explain(soup, along, none, grade(truth_of(soup, along), none), Contract::exact).refutation->words,
+            "ray 0, from (-5, 0, 0) towards (1, 0, 0), first meets face 0 along itself at (-1, 0, 0)");
 
   const auto fits = [&](const std::string& text) {
     std::vector<Reading> found;

@@ -382,10 +382,12 @@ TEST(Line_table, edges_of_a_T_junction_share_their_line) {
 }
 
 TEST(Line_table, a_line_needs_two_points) {
-  Grid_points points(10);
-  const std::uint32_t a = points.intern(std::array<std::int64_t, 3>{1, 2, 3});
-  Line_table lines(points);
-  EXPECT_THROW(lines.through(a, a), std::domain_error);
+  for (const int bits : {10, 62, 63, 130}) {
+    Grid grid(bits);
+    const std::uint32_t a = grid.point({Integer(1), Integer(2), Integer(3)});
+    Line_table lines(grid.points);
+    EXPECT_THROW(lines.through(a, a), std::domain_error) << bits;
+  }
 }
 
 TEST(Line_table, one_line_has_one_id_and_its_coordinates_are_canonical) {
