@@ -32,8 +32,9 @@ Edge_lines::Edge Edge_lines::edge(std::uint32_t piece, std::size_t corner) {
   const std::array<std::uint32_t, 2> points = occluders_->edge_points(piece, corner);
   const auto [name, flipped] = names_.through(points[0], points[1]);
   if (name == lines_.size()) {
-    const Triple a = occluders_->near_point_of(points[0]), b = occluders_->near_point_of(points[1]),
-                 rest = occluders_->rest_of(points[0]);
+    const Triple &a = occluders_->corners(piece)[corner],
+                 &b = occluders_->corners(piece)[(corner + 1) % occluders_->size(piece)];
+    const Triple rest = occluders_->rest_of(points[0]);
     lines_.push_back({{piece, static_cast<std::uint32_t>(corner)},
                       points,
                       flipped,

@@ -57,7 +57,7 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
     between = std::max(between, size(to_line));
     for (std::size_t j = 0; j < target.size(); ++j) {
       const Triple& way = ways[i * target.size() + j];
-      r.values.push_back(moment[0] * way[0] + moment[1] * way[1] + moment[2] * way[2]);
+      r.values.push_back(dot(moment, way));
       most = std::max(most, std::fabs(r.values.back()));
     }
   }

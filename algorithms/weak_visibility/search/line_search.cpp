@@ -195,7 +195,7 @@ Line_search::Refutation Line_search::refute(std::uint32_t d, std::size_t depth) 
     case Look::found: break;
   }
   std::vector<Candidate> blockers;
-  find_blockers(d, line, blockers, false);
+  find_blockers(d, line, blockers);
   std::vector<Edge_sign> unknown;
   const Candidate* chosen = choose(*domains_[d], blockers, unknown);
   if (chosen == nullptr) {
@@ -423,12 +423,12 @@ bool Line_search::is_in_the_way(Line_domain& domain, const Line_weights& line, c
   return true;
 }
 
-void Line_search::find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one) {
+void Line_search::find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers) {
   blockers.clear();
   candidates_of(d);
   for_each_blocker(*domains_[d], line, [&](const Candidate& blocker) {
     blockers.push_back(blocker);
-    return !one;
+    return true;
   });
   std::sort(blockers.begin(), blockers.end(), [](const Candidate& a, const Candidate& b) { return a.piece < b.piece; });
 }

@@ -139,8 +139,8 @@ class Line_search {
   /// The candidates that a line meets, in order, while `visit` says so.
   template <class Visit>
   void for_each_blocker(Line_domain& domain, const Line_weights& line, Visit visit);
-  /// All of them, by their numbers, or one where that is enough. Senses are those that the domain has.
-  void find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one);
+  /// All of them, by their numbers. Senses are those that the domain has.
+  void find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers);
   double height_of(Line_domain& domain, std::uint32_t line, const Line_weights& weights) const;
 
   /// The blocker with the fewest edges that are not known to have the line inside; some more are worth it for one that
