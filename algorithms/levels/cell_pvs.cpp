@@ -205,7 +205,9 @@ class Cell_pvs_search::Maker {
         const std::size_t back = first[dice() % first.size()];
         const std::vector<std::size_t>& second = ways_.into(ways_[back].from);
         const Way &out = ways_[Ways::back(back)], &on = ways_[Ways::back(second[dice() % second.size()])];
-        const Way_line line(point_within(out.source.polygon, dice), point_within(on.source.polygon, dice));
+        const Triple from = point_within(out.source.polygon, dice);
+        const Triple to = point_within(on.source.polygon, dice);
+        const Way_line line(from, to);
         if (!comes_through(out, line) || !comes_through(on, line)) continue;
         flood.counters.by_lines += flood.see(on.to);
         follow(line, on.to, flood, flood.counters.by_lines);

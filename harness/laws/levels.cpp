@@ -13,6 +13,7 @@
 #include <sightline/harness/laws/level_certificates.h>
 #include <sightline/harness/laws/level_checks.h>
 #include <sightline/harness/laws/level_groups.h>
+#include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
@@ -21,6 +22,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sightline::harness {
@@ -368,9 +370,26 @@ std::optional<bool> see_each_other(const Posed_scene& posed, const Level_cells& 
   return sees;
 }
 
+bool have_a_way(const Level_cells& level, Cell_id a, Cell_id b) {
+  return std::any_of(level.cells()[a].walls.begin(), level.cells()[a].walls.end(), [&](std::uint32_t w) {
+    const Cell_wall& wall = level.walls()[w];
+    return !wall.open.empty() && (wall.front == b || wall.behind == b);
+  });
+}
+
+/// Whether a segment goes from inside the one cell to inside the other, and meets no face on its way.
+bool is_free(const Polygon_soup& soup, const Level_cells& level, Cell_id a, Cell_id b,
+             const std::array<Exact_point, 2>& line) {
+  if (level.at(line[0]) != a || level.at(line[1]) != b || line[0] == line[1]) return false;
+  const std::vector<Face_hit> hits =
+      hits_by_definition(soup, level.scene(), {line[0], minus(line[1], line[0])}, Ray_start::closed);
+  return std::none_of(hits.begin(), hits.end(), [](const Face_hit& hit) { return hit.t <= 1; });
+}
+
 Outcome pairs(const Posed_scene& posed, const Answer&, Random& random) {
   const Level_cells level(posed.soup);
-  const Cell_pvs pvs = mutually_visible_cells(level, options_of(random));
+  Cell_pvs_search search(level, options_of(random));
+  const Cell_pvs pvs = search.ask(0, 1);
   bool undecided = pvs.counters.undecided > 0;
   for (std::size_t k = 0; k < 6; ++k) {
     const Cell_id a = static_cast<Cell_id>(random.below(level.cells().size())),
@@ -383,8 +402,59 @@ Outcome pairs(const Posed_scene& posed, const Answer&, Random& random) {
     if (!verdict.accepted) return Outcome::failed(pair + ": their certificate is rejected: " + verdict.why);
     if (sees && *sees != are_in_list(pvs.visible, a, b))
       return Outcome::failed(pair + (*sees ? " by themselves see each other" : " by themselves do not"));
+    const std::optional<std::array<Exact_point, 2>> line = search.sightline(a, b);
+    undecided |= are_in_list(pvs.visible, a, b) && !line;
+    if (line && !are_in_list(pvs.visible, a, b))
+      return Outcome::failed(pair + " have a sightline, though they do not see each other");
+    if (!line && have_a_way(level, a, b)) return Outcome::failed(pair + " have a way between them, but no sightline");
+    if (line && !is_free(posed.soup, level, a, b, *line))
+      return Outcome::failed(pair + ": a sightline is not from the one to the other, or meets a face");
   }
   return undecided ? Outcome::undecided() : Outcome{};
+}
+
+// ---- Ways out
+
+/// Of each cell how many walls are to be passed to one that has no end; `no_way` where there is no way.
+constexpr std::size_t no_way = ~std::size_t{0};
+std::vector<std::size_t> steps_out(const Level_cells& level) {
+  std::vector<std::size_t> steps(level.cells().size(), no_way);
+  for (Cell_id c = 0; c < level.cells().size(); ++c)
+    if (level.cells()[c].is_outside && !level.cells()[c].is_solid) steps[c] = 0;
+  for (bool goes_on = true; goes_on;) {
+    goes_on = false;
+    for (const Cell_wall& wall : level.walls()) {
+      if (wall.behind == no_cell || wall.open.empty()) continue;
+      for (const auto& [from, to] : {std::pair(wall.front, wall.behind), std::pair(wall.behind, wall.front)})
+        if (!level.cells()[from].is_solid && steps[to] != no_way && steps[to] + 1 < steps[from]) {
+          steps[from] = steps[to] + 1;
+          goes_on = true;
+        }
+    }
+  }
+  return steps;
+}
+
+Outcome ways_out(const Posed_scene& posed, const Answer&, Random& random) {
+  const Level_cells level(posed.soup);
+  const std::vector<std::size_t> steps = steps_out(level);
+  for (std::size_t k = 0; k < 12; ++k) {
+    const Cell_id cell = static_cast<Cell_id>(random.below(level.cells().size()));
+    const std::vector<Cell_id> way = level.way_out(any_point_of(level, cell, random));
+    const bool is_kept_in = level.cells()[cell].is_solid || steps[cell] == no_way;
+    const std::string from = "from cell " + std::to_string(cell);
+    if (way.empty() != is_kept_in) return Outcome::failed(from + (is_kept_in ? " there is no way out" : " no way out"));
+    if (is_kept_in) continue;
+    if (way.front() != cell || way.size() != steps[cell] + 1) return Outcome::failed(from + " another way is shorter");
+    for (std::size_t i = 0; i + 1 < way.size(); ++i)
+      if (steps[way[i]] != steps[way[i + 1]] + 1 || !have_a_way(level, way[i], way[i + 1]))
+        return Outcome::failed(from + " the way out goes through a wall");
+  }
+  Exact_point beyond = level.inside(0);
+  for (const Exact_point& p : level.points()) beyond[0] = std::max(beyond[0], Rational(p[0] + 1));
+  return level.at(beyond) == no_cell && level.way_out(beyond).empty()
+             ? Outcome{}
+             : Outcome::failed("a point beyond the box is in a cell");
 }
 
 /// Nothing is asked of faces alone: cells are the program's choice.
@@ -416,7 +486,9 @@ Subject pvs() {
       check_of_a_share("coarse", "regions are convex, empty and as few as can be, and see what they see by themselves",
                        2, levels_subject::coarse),
       check_of_a_share("certificates", "what is true of cells is accepted, and what is not is refused", 2,
-                       levels_subject::certificates)};
+                       levels_subject::certificates),
+      {"ways", "ways out go through open walls, as few as can be, and are there iff some wall after another is open",
+       levels_subject::ways_out}};
   return subject;
 }
 

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/algorithms/verify/solids.h>
+#include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/kernel/vectors.h>
 
@@ -11,6 +12,8 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <sstream>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -100,6 +103,12 @@ bool copy_any(std::vector<Solid_certificate::Fragment>& fragments, Random& rando
   return true;
 }
 
+std::string claim_text(const Solid_certificate& certificate) {
+  std::ostringstream out;
+  write_solid_certificate(out, certificate);
+  return out.str();
+}
+
 }  // namespace
 
 std::string flaw_of_certificate(const std::vector<Polygon_soup>& given, Random& random) {
@@ -115,7 +124,9 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& given, Random& 
   options.keep_fragments = true;
   const Operands operands(solids);
   const Set_result result = set_operation(operands, options);
-  Solid_certificate claim = solid_certificate(operands, options, result);
+  const std::string text = claim_text(solid_certificate(operands, options, result));
+  Solid_certificate claim = read_solid_certificate(text);
+  if (claim_text(claim) != text) return "a certificate that is read is another one when it is written";
   Verify_options verifying;
   verifying.threads = 1;
   const Hole_free flat = without_holes(result.soup);

@@ -18,6 +18,7 @@
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/naive_weak.h>
 #include <sightline/harness/laws/weak_answers.h>
+#include <sightline/harness/laws/weak_options.h>
 #include <sightline/harness/laws/weak_partition.h>
 #include <sightline/harness/laws/weak_volume.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -151,7 +152,7 @@ Subject weak() {
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer, 0); }});
   subject.checks.push_back(weak_budget_check());  // behind the others, which keep their random choices; so are these
   for (Check check : {conservative_check(), settle_check(), along_check(), volume_check(), partition_check(),
-                      outline_check(), naive_weak_check()})
+                      outline_check(), naive_weak_check(), two_sided_check(), rest_check()})
     subject.checks.push_back(std::move(check));
   return subject;
 }

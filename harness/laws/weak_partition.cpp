@@ -4,11 +4,15 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
+#include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/weak_outline.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <string>
+#include <vector>
 
 namespace sightline::harness {
 
@@ -79,6 +83,51 @@ std::string flaw_of_edges(const Scene& scene, std::uint32_t piece, const generat
          " by brute force" + (images.size() == outline.size() ? ", others" : "");
 }
 
+namespace {
+
+/// That a point of a cell is found there, and any other point in a cell that has its light, or on a border.
+std::string flaw_of_places(const Occluders& occluders, const Weak_source& source, std::uint32_t piece,
+                           const Light_partition& partition) {
+  constexpr std::size_t most_cells = 10;
+  for (std::size_t c = 0; c < std::min(most_cells, partition.cells.size()); ++c) {
+    const std::array<Rational, 2>& at = partition.cells[c].at;
+    const std::size_t found = partition.cell_at(at[0], at[1]);
+    const bool is_sliver = partition.cells[c].area.low < 1e-6;  // doubles do not tell where it is
+    if (found != c && found != Light_partition::none && !is_sliver) return "a point of a cell is found in another one";
+  }
+  generate::Random places(partition.cells.size());
+  for (int k = 0; k < 3; ++k) {
+    const auto number = [&] { return Rational(static_cast<long>(places.between(-20, 1020)), 1000l); };
+    const Rational x = number(), y = number();
+    const std::size_t found = partition.cell_at(x, y);
+    if (found == Light_partition::none) continue;
+    Light_partition::Cell there = partition.cells[found];
+    there.at = {x, y};
+    if (is_contradicted(occluders, source, piece, partition, there, places))
+      return "a point is found in a cell that is " + std::string(name_of(there.light)) + ", and a segment denies it";
+  }
+  return "";
+}
+
+/// That shares of a face, and of each of its pieces, add up to all of it.
+std::string flaw_of_shares(const Scene& scene, const std::vector<Light_partition>& pieces) {
+  const auto is_whole = [](const std::array<Bounded, lights>& shares) {
+    double low = 0, high = 0;
+    for (const Bounded& share : shares) {
+      if (!(0 <= share.low && share.low <= share.high && share.high <= 1)) return false;
+      low += share.low;
+      high += share.high;
+    }
+    constexpr double rounding = 1e-12, width = 1e-3;
+    return low <= 1 + rounding && high >= 1 - rounding && high - low < width;
+  };
+  for (const Light_partition& partition : pieces)
+    if (!is_whole(partition.shares())) return "the shares of a piece are not all of it";
+  return is_whole(shares_of_face(scene, pieces)) ? "" : "its shares are not all of it";
+}
+
+}  // namespace
+
 Check partition_check() {
   return {"partition",
           "a face is hidden iff all of it is in umbra, and segments from its cells to the source are free or not as "
@@ -99,6 +148,7 @@ Check partition_check() {
             constexpr std::size_t most_rectangles = 2000;
             options.out_of_time = [&] { return ++asked > most_rectangles; };
             bool some_light = false, open = false;
+            std::vector<Light_partition> pieces;
             for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
               if (scene.pieces()[piece].face != face) continue;
               Partition_counters counters;
@@ -112,7 +162,12 @@ Check partition_check() {
                 some_light |= cell.light == Light::lit || cell.light == Light::penumbra;
                 open |= cell.light == Light::undecided;
               }
+              const std::string flaw = open ? "" : flaw_of_places(occluders, source, piece, partition);
+              if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
+              pieces.push_back(partition);
             }
+            const std::string flaw = flaw_of_shares(scene, pieces);
+            if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
             if (some_light ? answer.labels[face] == 1 : !open && answer.labels[face] == 0) return Outcome{};
             if (!some_light && open) return Outcome::undecided();
             return Outcome::failed(face_name(face) + (some_light ? " has light in its partition, but is hidden"

@@ -7,6 +7,7 @@
 #include <sightline/harness/laws/query_json.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
+#include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/io/number_lines.h>
 #include <sightline/harness/judge/protocol.h>
 
@@ -178,6 +179,24 @@ inline void read_certificate(std::string_view bytes) {
       *certificate);
   const std::string text = written(*certificate);
   const std::optional<Certificate> again = read(text);
+  require(again.has_value(), "what is written is read");
+  require(written(*again) == text, "what is written is the same certificate when read");
+}
+
+/// Of a set operation.
+inline void read_solid_certificate(std::string_view bytes) {
+  const auto read = [](const std::string& text) {
+    return taken("", [&] { return sightline::read_solid_certificate(text); });
+  };
+  const auto written = [](const sightline::Solid_certificate& certificate) {
+    std::ostringstream out;
+    sightline::write_solid_certificate(out, certificate);
+    return out.str();
+  };
+  const auto certificate = read(std::string(bytes));
+  if (!certificate) return;
+  const std::string text = written(*certificate);
+  const auto again = read(text);
   require(again.has_value(), "what is written is read");
   require(written(*again) == text, "what is written is the same certificate when read");
 }

@@ -53,6 +53,7 @@ inline const std::vector<Target>& targets() {
                                        {"read_table", read_table, {".pvs"}},
                                        {"decimal", decimal, {".off", ".qoff", ".obj"}},
                                        {"read_certificate", read_certificate, {"certificates/", "forms/"}},
+                                       {"read_solid_certificate", read_solid_certificate, {"solid_proofs/"}},
                                        {"query", query, {"queries/"}},
                                        {"answer", answer, {"answers/"}},
                                        {"number_lines", number_lines, {"paths/"}},

@@ -66,7 +66,8 @@ struct Light_partition {
   Exact_point point(const Rational& x, const Rational& y) const;  ///< of the chart, in the file's coordinates
   std::array<Bounded, lights> shares() const;                     ///< of the piece
   /// The cell that a point is in. `none`: outside of the piece, on a border, or straight above or below an end of one
-  /// as far as doubles tell. Pre: no cell is undecided. Cost: all borders. Exact: yes
+  /// as far as doubles tell; of a cell that is narrower than these tell, it may be the one beside it. Pre: no cell is
+  /// undecided. Cost: all borders. Exact: yes, but for that
   std::size_t cell_at(const Rational& x, const Rational& y) const;
 };
 
