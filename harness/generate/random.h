@@ -29,7 +29,8 @@ class Random {
   /// Puts a sequence in random order, all orders equally likely (Fisher and Yates).
   template <class T>
   void shuffle(std::vector<T>& items) {
-    for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[below(i)]);
+    using std::swap;
+    for (std::size_t i = items.size(); i > 1; --i) swap(items[i - 1], items[below(i)]);
   }
 
   /// Where the sequence of numbers is, as text; and from there on.

@@ -69,8 +69,8 @@ class Order {
 /// By a BSP tree. Labels: 1 where the eye is in front of the face, 2 behind, 4 in its plane.
 template <class Traits>
 Answer by_tree(const Posed_scene& posed, const Scene& scene, const Traits& traits, bool verify,
-               Bsp_counters* counters = nullptr) {
-  const Bsp_tree<Traits> tree = build_bsp(traits, serial());
+               Bsp_counters* counters = nullptr, const Bsp_options& options = serial()) {
+  const Bsp_tree<Traits> tree = build_bsp(traits, options);
   if (counters != nullptr) *counters = tree.counters;
   Answer answer;
   answer.labels.assign(posed.soup.face_count(), Answer::none);
@@ -102,6 +102,30 @@ Outcome by_kernel(const Posed_scene& posed, const Answer& answer, const std::str
   if (here.splits != there.splits) return differ("splits", here.splits, there.splits);
   if (here.fragments != there.fragments) return differ("fragments", here.fragments, there.fragments);
   return compared(answer, other, "exact", name);
+}
+
+/// By another tree of the same faces, its planes chosen otherwise; progress is told of each fragment once.
+Outcome by_another_tree(const Posed_scene& posed, const Answer& answer, Random& random) {
+  Bsp_options options;
+  options.candidates = static_cast<unsigned>(1 + random.below(8));
+  options.sample = static_cast<unsigned>(1 + random.below(4));
+  options.split_weight = static_cast<unsigned>(random.below(6));
+  options.seed = random.below(1000);
+  options.threads = 1;
+  std::size_t told = 0;
+  bool goes_on = true;
+  options.progress = [&](std::size_t done, std::size_t) {
+    goes_on &= done > told;
+    told = done;
+  };
+  const Scene scene(posed.soup);
+  Bsp_counters counters;
+  const Answer other = by_tree(posed, scene, Exact_traits(scene), true, &counters, options);
+  if (!other.flaw.empty()) return Outcome::failed("of another tree " + other.flaw);
+  if (!goes_on || told != counters.fragments) return Outcome::failed("progress is not told of each fragment once");
+  if (counters.fragments != counters.pieces + counters.splits)
+    return Outcome::failed("fragments are not pieces and splits");
+  return compared(answer, other, "the tree", "another tree");
 }
 
 std::string Order::flaw(const Polygon_soup& soup, bool on_view) {
@@ -171,6 +195,7 @@ Subject order() {
   // Last: others keep their random choices.
   for (const Check& check : {points_check(), first_hit_check(), parts_check(), face_graph_check()})
     subject.checks.push_back(check);
+  subject.checks.push_back({"another_tree", "an order by a tree of planes chosen otherwise", by_another_tree});
   return subject;
 }
 

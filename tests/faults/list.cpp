@@ -18,6 +18,18 @@ std::string content(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// Whether a text can stand alone in parentheses, as far as these tell.
+bool is_balanced(const std::string& text) {
+  std::string open;
+  for (const char c : text) {
+    if (c == '(' || c == '[' || c == '{') open += c == '(' ? ')' : c == '[' ? ']' : '}';
+    if (c != ')' && c != ']' && c != '}') continue;
+    if (open.empty() || open.back() != c) return false;
+    open.pop_back();
+  }
+  return open.empty();
+}
+
 class Faults : public testing::TestWithParam<const char*> {};
 
 TEST_P(Faults, each_text_is_found_exactly_once) {
@@ -30,6 +42,7 @@ TEST_P(Faults, each_text_is_found_exactly_once) {
                       faulty = fault.at("faulty");
     EXPECT_TRUE(names.insert(name).second) << name << " comes twice";
     EXPECT_NE(expression, faulty) << name;
+    EXPECT_TRUE(is_balanced(expression) && is_balanced(faulty)) << name << ": no expression";
     EXPECT_FALSE(fault.at("what").get<std::string>().empty()) << name;
     EXPECT_FALSE(fault.at("hunt").empty()) << name << ": nothing is to find it";
     const std::string text = fault.value("before", "") + expression + fault.value("after", "");

@@ -10,6 +10,7 @@
 #include "cutset.h"
 #include "decimal.h"
 #include "decisions.h"
+#include "drawings.h"
 #include "event_cells.h"
 #include "faces.h"
 #include "fixed_integer.h"
@@ -76,7 +77,8 @@ inline const std::vector<Target>& targets() {
                                        {"bsp_queries", bsp_queries, {}},
                                        {"text_numbers", text_numbers, {}},
                                        {"cover", cover, {}},
-                                       {"pictures", pictures, {}}};
+                                       {"pictures", pictures, {}},
+                                       {"drawings", drawings, {}}};
   return all;
 }
 
