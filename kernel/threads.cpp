@@ -8,12 +8,27 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <exception>
 #include <optional>
 #include <utility>
 
 namespace sightline {
 
 namespace tbb = oneapi::tbb;
+
+namespace {
+
+/// Work within work that is given up. oneTBB leaves out what has not begun of the inner work and goes on behind it, as
+/// if it were done; the exception that ends the outer work is on its way already, and this one is lost in it.
+struct Given_up : std::exception {
+  const char* what() const noexcept override { return "the work around this one is given up"; }
+};
+
+void require_whole(tbb::task_group_context& context) {
+  if (context.is_group_execution_cancelled()) throw Given_up();
+}
+
+}  // namespace
 
 void run_with_threads(int threads, const std::function<void()>& work) {
   std::optional<tbb::global_control> more;
@@ -24,11 +39,16 @@ void run_with_threads(int threads, const std::function<void()>& work) {
 }
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); });
+  tbb::task_group_context context;
+  tbb::parallel_for(
+      std::size_t{0}, count, [&](std::size_t i) { body(i); }, context);
+  require_whole(context);
 }
 
 void parallel_invoke(const std::function<void()>& one, const std::function<void()>& other) {
-  tbb::parallel_invoke([&] { one(); }, [&] { other(); });
+  tbb::task_group_context context;
+  tbb::parallel_invoke([&] { one(); }, [&] { other(); }, context);
+  require_whole(context);
 }
 
 struct Task_group::Tasks {
@@ -38,7 +58,7 @@ Task_group::Task_group() : tasks_(std::make_unique<Tasks>()) {}
 Task_group::~Task_group() = default;
 void Task_group::run(std::function<void()> task) { tasks_->group.run(std::move(task)); }
 void Task_group::run_and_wait(const std::function<void()>& task) {
-  tasks_->group.run_and_wait([&] { task(); });
+  if (tasks_->group.run_and_wait([&] { task(); }) == tbb::task_group_status::canceled) throw Given_up();
 }
 
 struct Thread_slots::Slots {

@@ -13,10 +13,12 @@ namespace sightline {
 void run_with_threads(int threads, const std::function<void()>& work);
 
 /// Calls body(i) for each i from 0 to before `count`, in any order, on the threads of run_with_threads(). Cost: for
-/// bodies that take a microsecond or more. Errors: what a body throws; bodies that have not begun are left out then.
+/// bodies that take a microsecond or more. Errors: what a body throws; bodies that have not begun are left out then. Of
+/// work within work that is given up no part counts as done: it ends in an exception of its own, of which only that of
+/// the outer work comes out.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
-/// Does both, one of them perhaps in another thread.
+/// Does both, one of them perhaps in another thread. Errors: as parallel_for().
 void parallel_invoke(const std::function<void()>& one, const std::function<void()>& other);
 
 /// Tasks that may start more tasks, and an end to wait for.
@@ -28,7 +30,7 @@ class Task_group {
   Task_group& operator=(const Task_group&) = delete;
 
   void run(std::function<void()> task);
-  /// Runs a task here, then waits for all. Errors: what a task throws.
+  /// Runs a task here, then waits for all. Errors: as parallel_for().
   void run_and_wait(const std::function<void()>& task);
 
  private:

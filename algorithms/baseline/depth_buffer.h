@@ -76,7 +76,7 @@ struct Depth_image {
 };
 
 /// The same in one image; its size stands in the view, the options' own is not asked. Depths are along the direction
-/// that it looks in. Errors: std::invalid_argument also where its directions do not span the space.
+/// that it looks in. Errors: std::invalid_argument also where its directions do not span the space, as doubles tell.
 Depth_image depth_image(const Scene& scene, const Pixel_view& pixels, const Depth_buffer_options& options = {});
 
 }  // namespace sightline

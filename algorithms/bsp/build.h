@@ -340,6 +340,7 @@ class Builder {
       ++mine.counters.predicates.combinatorial;
       return Position::on;
     };
+    const std::uint64_t splits = mine.counters.splits;
     std::size_t behind = begin;  // where the next one behind goes: at most one for each polygon read
     mine.front.clear();
     const auto is_kept = [&](const Polygon& polygon) {
@@ -367,12 +368,14 @@ class Builder {
     }
     polygons.erase(polygons.begin() + static_cast<std::ptrdiff_t>(behind), polygons.end());
     polygons.insert(polygons.end(), mine.front.begin(), mine.front.end());
+    if (options_.progress) all_ += mine.counters.splits - splits;
     return behind;
   }
 
   void settled(std::size_t fragments) {
     if (!options_.progress || fragments == 0) return;
-    options_.progress(settled_.fetch_add(fragments) + fragments, all_);
+    const std::size_t done = settled_.fetch_add(fragments) + fragments;
+    options_.progress(done, all_.load());
   }
 
   /// Makes one tree of the parts: the nodes of a part, its front, what is behind.
@@ -427,7 +430,7 @@ class Builder {
   Bsp_options options_;
   Per_thread<Workspace> workspaces_;
   std::atomic<std::size_t> settled_{0};
-  std::size_t all_ = 0;
+  std::atomic<std::size_t> all_{0};  // fragments so far
 };
 
 }  // namespace bsp_detail

@@ -25,7 +25,7 @@ struct Bsp_options {
   std::vector<Given> given = {};  ///< a tree from place 0 on, all of it, behind the first planes: as a level has one
   int threads = 0;                ///< 0: as many as there are processors; the tree is the same for any number
   std::function<void(std::size_t done, std::size_t all)> progress =
-      {};  ///< fragments settled, which may become more than all pieces; called from any thread
+      {};  ///< fragments settled, and of how many so far; called from any thread
 };
 
 }  // namespace sightline

@@ -577,7 +577,12 @@ class Solid_check {
             reject("a face of the result is not planar near " + name(points_[p]));
       if (self_intersecting(Face(result, f)))
         reject(name("face", f) + " of the result crosses itself, or winds round some of it otherwise than once");
-      for (const std::vector<Number>& loop : loops) planes[plane].add(loop, 1);
+      planes[plane].add(loops[0], 1);
+      for (std::size_t k = 1; k < loops.size(); ++k) {
+        Polygon hole;
+        for (const Number p : loops[k]) hole.push_back(points_[p]);
+        planes[plane].add(loops[k], sign_of_dot(newell_normal(hole), normal) > 0 ? -1 : 1);  // either sense
+      }
     }
     for (const auto& [least, i] : kept) {
       if (is_found[i]) continue;

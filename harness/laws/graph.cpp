@@ -12,6 +12,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/priority_laws.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/convex_parts.h>
@@ -85,6 +86,7 @@ Subject graph() {
   // Last: others keep their random choices.
   for (const Check& check : {region_check(), rays_check(), pixels_check(), splits_check()})
     subject.checks.push_back(check);
+  subject.checks.push_back(manners_check(questions_of_graph()));
   return subject;
 }
 

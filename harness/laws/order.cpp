@@ -16,6 +16,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/solid_laws.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -196,6 +197,7 @@ Subject order() {
   for (const Check& check : {points_check(), first_hit_check(), parts_check(), face_graph_check()})
     subject.checks.push_back(check);
   subject.checks.push_back({"another_tree", "an order by a tree of planes chosen otherwise", by_another_tree});
+  subject.checks.push_back(manners_check(questions_of_order()));
   return subject;
 }
 

@@ -25,6 +25,7 @@
 #include <sightline/harness/laws/depth_laws.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/window_laws.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/exact_traits.h>
@@ -481,6 +482,7 @@ Subject render() {
   subject.checks.push_back(check_of("squares", "a pixel's mean is that of areas in rationals", in_squares<false>));
   subject.checks.push_back(check_of("squares_layers", "so it is where faces let light through", in_squares<true>));
   subject.checks.push_back(depth_check());
+  subject.checks.push_back(manners_check(questions_of_render()));
   return subject;
 }
 

@@ -18,6 +18,7 @@
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/see_lines.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -98,6 +99,7 @@ Subject see() {
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   for (Check check : {see_budget_check(), moving_eye_check()})  // last: others keep their random choices
     subject.checks.push_back(std::move(check));
+  subject.checks.push_back(manners_check(questions_of_see()));
   return subject;
 }
 

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/rays/ray.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/vectors.h>
 
@@ -274,6 +275,7 @@ Subject shadow() {
   subject.answer = labels;
   subject.checks = {by_definition(), as_seen(), by_volume()};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  subject.checks.push_back(manners_check(questions_of_shadow()));
   return subject;
 }
 

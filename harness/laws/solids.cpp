@@ -10,8 +10,10 @@
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/judge_laws.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/solid_oracle.h>
 #include <sightline/harness/laws/solid_proof.h>
+#include <sightline/harness/laws/solid_retold.h>
 #include <sightline/harness/laws/solid_rounding.h>
 #include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/scene.h>
@@ -343,6 +345,10 @@ Subject boolean() {
           [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_rounding(solids, random); })};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut"});
   subject.checks.push_back(judged_solids_check());
+  subject.checks.push_back(check_of_solids(
+      "results", "the result is accepted however its faces are told, and no other one is",
+      [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_told_result(solids, random); }));
+  subject.checks.push_back(manners_check(questions_of_boolean()));
   return subject;
 }
 

@@ -16,6 +16,7 @@
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/naive_weak.h>
 #include <sightline/harness/laws/weak_answers.h>
 #include <sightline/harness/laws/weak_options.h>
@@ -154,6 +155,7 @@ Subject weak() {
   for (Check check : {conservative_check(), settle_check(), along_check(), volume_check(), partition_check(),
                       outline_check(), naive_weak_check(), two_sided_check(), rest_check()})
     subject.checks.push_back(std::move(check));
+  subject.checks.push_back(manners_check(questions_of_weak()));
   return subject;
 }
 

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -425,6 +426,37 @@ TEST(Checker, takes_neighbours_for_one_patch_only_if_their_fronts_are_on_one_sid
   EXPECT_EQ(claim.fragments.size(), 6u);
   EXPECT_EQ(verify_solids(std::vector{all}, claim, &cube).why,
             "union of 1 solids: 6 of 6 fragments bound it, and are the result");
+}
+
+TEST(Checker, takes_holes_of_a_result_in_either_sense) {
+  // A block, and a smaller one through it: its top and bottom have a hole.
+  const std::vector<Polygon_soup> solids{box({0, 0, 0}, {4, 4, 2}), box({1, 1, -1}, {3, 3, 3})};
+  Set_options options;
+  options.operation = Set_operation::subtract;
+  options.keep_fragments = true;
+  const Operands operands(solids);
+  const Set_result result = set_operation(operands, options);
+  const Solid_certificate claim = solid_certificate(operands, options, result);
+  for (const bool turned : {false, true}) {
+    Polygon_soup told;
+    std::size_t holes = 0;
+    for (Point_id p = 0; p < result.soup.point_count(); ++p) {
+      const Exact_point at = result.soup.point(p);
+      told.add_point(at[0], at[1], at[2]);
+    }
+    for (Face_id f = 0; f < result.soup.face_count(); ++f) {
+      told.add_face(result.soup.loop(f));
+      for (std::size_t k = 1; k < result.soup.loop_count(f); ++k) {
+        std::vector<Point_id> hole(result.soup.loop(f, k).begin(), result.soup.loop(f, k).end());
+        if (turned) std::reverse(hole.begin(), hole.end());
+        told.add_hole(hole);
+        ++holes;
+      }
+    }
+    EXPECT_EQ(holes, 2u);
+    const Verdict verdict = verify_solids(solids, claim, &told);
+    EXPECT_TRUE(verdict.accepted) << verdict.why;
+  }
 }
 
 }  // namespace
