@@ -1,5 +1,7 @@
 #include <sightline/algorithms/verify/solids_json.h>
 
+#include <sightline/kernel/quoted.h>
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -15,6 +17,7 @@ namespace sightline {
 
 namespace {
 
+constexpr std::size_t most_said = 200;  // bytes, of what is wrong with its JSON
 constexpr const char* solids_format = "sightline boolean 1";
 constexpr std::array<const char*, 3> fate_names{"dropped", "kept", "turned"};
 
@@ -23,6 +26,14 @@ std::uint32_t whole_number_of(const nlohmann::json& value) {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu)
     throw std::invalid_argument("a number that should be a whole one below 2^32 is not");
   return value.get<std::uint32_t>();
+}
+
+int winding_number_of(const nlohmann::json& value) {
+  const bool fits = value.is_number_integer() &&
+                    (value.is_number_unsigned() ? value.get<std::uint64_t>() <= 0x7fffffffu
+                                                : value.get<std::int64_t>() >= -std::int64_t{0x7fffffff});
+  if (!fits) throw std::invalid_argument("a winding number is not a whole one between -2^31 and 2^31");
+  return static_cast<int>(value.get<std::int64_t>());
 }
 
 /// Of equal points the same: canonical rationals have equal limbs.
@@ -133,9 +144,9 @@ Solid_certificate read_solid_certificate(const std::string& text) {
       }
       fragment.vertices = loop(entry.at("vertices"));
       for (const json& number : entry.at("front")) {
-        if (!number.is_array() || number.size() != 2 || !number[1].is_number_integer())
-          throw std::invalid_argument("a winding number is not a pair of whole numbers");
-        fragment.front.emplace_back(whole_number_of(number[0]), number[1].get<int>());
+        if (!number.is_array() || number.size() != 2)
+          throw std::invalid_argument("a winding number is not with its operand");
+        fragment.front.emplace_back(whole_number_of(number[0]), winding_number_of(number[1]));
       }
       const std::string fate = entry.at("fate").get<std::string>();
       const auto at = std::find(fate_names.begin(), fate_names.end(), fate);
@@ -150,7 +161,8 @@ Solid_certificate read_solid_certificate(const std::string& text) {
                                        entry.at("why").get<std::string>()});
   } catch (const json::exception& error) {
     const std::string what = error.what();
-    throw std::invalid_argument("no certificate of a set operation: " + what.substr(what.find("] ") + 2));
+    throw std::invalid_argument("no certificate of a set operation: " +
+                                printable(what.substr(what.find("] ") + 2), most_said, true));
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string("no certificate of a set operation: ") + error.what());
   }

@@ -198,9 +198,9 @@ Outcome of_all(const Posed_scene& posed, const Level_cells& level, Random& rando
       said.push_back({said.size(), generate::box(low, high), false, {}});
     }
     if (way == 3) {  // a face beyond it
-      Points triangle{level.points()[0], level.points()[0], level.points()[0]};
-      for (std::size_t i = 0; i < 3; ++i) triangle[i][i] *= 1000;
-      for (std::size_t i = 0; i < 3; ++i) triangle[i][i] += 1000;
+      const Exact_point high = exact_box(level.points())[1];
+      Points triangle{high, high, high};
+      for (std::size_t i = 0; i < 3; ++i) triangle[i][i] += 1;
       soup.add_face(generate::added(soup, triangle));
     }
     if (way == 4) {  // a room left out

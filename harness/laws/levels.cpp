@@ -13,6 +13,7 @@
 #include <sightline/harness/laws/level_certificates.h>
 #include <sightline/harness/laws/level_checks.h>
 #include <sightline/harness/laws/level_groups.h>
+#include <sightline/harness/laws/level_hasty.h>
 #include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/scene/exact_plane.h>
@@ -490,6 +491,7 @@ Subject pvs() {
                        levels_subject::certificates),
       {"ways", "ways out go through open walls, as few as can be, and are there iff some wall after another is open",
        levels_subject::ways_out}};
+  subject.checks.push_back(hasty_levels_check());
   subject.checks.push_back(manners_check(questions_of_pvs()));
   return subject;
 }

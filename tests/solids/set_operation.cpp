@@ -473,6 +473,32 @@ TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
   EXPECT_THROW(read_solid_certificate(broken), std::invalid_argument);
 }
 
+TEST(Certificates, of_numbers_that_do_not_fit_are_refused_and_errors_are_one_line) {
+  const auto said_of = [](const std::string& text) -> std::string {
+    try {
+      read_solid_certificate(text);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto with_winding = [&](const std::string& number) {
+    return said_of(R"({"format": "sightline boolean 1", "operation": "union", "inside": "positive", "operands": 1,
+                       "points": [["0","0","0"],["1","0","0"],["0","1","0"]], "fragments": [{"parts": [[0,0,0,0]],
+                       "vertices": [0,1,2], "fate": "kept", "front": [[0,)" +
+                   number + R"(]]}], "pieces": [], "set_aside": []})");
+  };
+  const std::string refused =
+      "no certificate of a set operation: a winding number is not a whole one between -2^31 and 2^31";
+  for (const char* const good : {"1", "-1", "2147483647", "-2147483647"}) EXPECT_EQ(with_winding(good), "") << good;
+  for (const char* const bad :
+       {"2147483648", "4294967297", "-2147483648", "-4294967295", "18446744073709551615", "1.5", "\"1\""})
+    EXPECT_EQ(with_winding(bad), refused) << bad;
+  const std::string said = said_of("{\"format\"\n\x7f: 1");
+  EXPECT_TRUE(said.starts_with("no certificate of a set operation: ")) << said;
+  for (const char c : said) EXPECT_TRUE(c >= ' ' && c < 127) << said;
+}
+
 /// The closed scenes of the collection with so many faces at most, of files that such may have; none where it is not
 /// there.
 std::vector<std::pair<std::string, Polygon_soup>> closed_scenes(std::size_t most_faces) {
