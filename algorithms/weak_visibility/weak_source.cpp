@@ -95,10 +95,12 @@ std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points) 
       throw std::invalid_argument(not_convex);
     if (turn > 0) strict.push_back(i);
   }
-  for (std::size_t i = 0; i < strict.size();
-       ++i)  // a star turns left everywhere too, but has corners outside its edges
+  // A star turns left everywhere too, but has corners outside its edges; what goes around twice has corners twice.
+  for (std::size_t i = 0; i < strict.size(); ++i) {
+    const std::size_t from = strict[i], to = strict[(i + 1) % strict.size()];
     for (const std::size_t p : strict)
-      if (turns.of(strict[i], strict[(i + 1) % strict.size()], p) < 0) throw std::invalid_argument(not_convex);
+      if (p != from && p != to && turns.of(from, to, p) <= 0) throw std::invalid_argument(not_convex);
+  }
   std::vector<Exact_point> kept;
   for (const std::size_t i : strict) kept.push_back(corners[i]);
   return kept;

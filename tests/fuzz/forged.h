@@ -6,6 +6,7 @@
 #include "certificate.h"
 #include "lies.h"
 #include "mutate.h"
+#include "nonsense.h"
 #include "path_lies.h"
 #include "pretences.h"
 #include "retold.h"
@@ -83,7 +84,7 @@ void tell_otherwise(const Polygon_soup& soup, const Claim& accepted, Mutator& ra
 template <class Claim>
 Tallies judged_forgeries_of(const Claim& shown, const Pretence& pretence, const Posed_scene& scene,
                             const std::string& kind, Mutator& random) {
-  constexpr std::size_t bytes_of_lies = 48;
+  constexpr std::size_t bytes_of_lies = 48, nonsense_share = 6;
   Tallies tallies;
   std::optional<Truth> truth;
   for (std::size_t k = 0, forgeries = forgeries_of(shown); k < forgeries; ++k) {
@@ -93,6 +94,13 @@ Tallies judged_forgeries_of(const Claim& shown, const Pretence& pretence, const 
     if (k > 0) {
       const std::string words = random.random_bytes(bytes_of_lies);
       Bytes bytes(words);
+      if (bytes.below(nonsense_share) == 0) {
+        const std::string where = told_nonsense(claim, scene.soup.face_count(), bytes);
+        if (where.empty()) continue;
+        ++tallies[kind + ": nonsense"].rejected;
+        if (verdict_on(scene.soup, claim).accepted) throw Finding(kind + ": nonsense is accepted: " + where);
+        continue;
+      }
       const std::string lie = told_a_lie(lies_in(claim), claim, scene, bytes);
       if (lie.empty()) continue;
       name = pretence.is_true() ? lie : "a lie about another scene";

@@ -2,6 +2,7 @@
 // Certificates of set operations on solids of a scene's faces, forged: of other solids, and with lies.
 
 #include "lies.h"
+#include "nonsense.h"
 #include "tallies.h"
 
 #include <sightline/algorithms/solids/certificate.h>
@@ -186,7 +187,7 @@ class Solid_truth {
 /// Shows certificates of solids, as they are or one of them elsewhere, and lies, as those of the solids: what passes is
 /// true.
 inline Tallies judged_solid_forgeries(const Posed_scene& scene, Mutator& random) {
-  constexpr std::size_t forgeries = 64, bytes_of_lies = 48, most_faces = 40;
+  constexpr std::size_t forgeries = 64, bytes_of_lies = 48, most_faces = 40, nonsense_share = 6;
   // 1. The solids, and those that the forger has.
   generate::Random choices(random.below(1u << 30));
   const Solids solids = harness::solids_of(scene, choices);
@@ -221,6 +222,13 @@ inline Tallies judged_solid_forgeries(const Posed_scene& scene, Mutator& random)
     if (k > 0) {
       const std::string words = random.random_bytes(bytes_of_lies);
       Bytes bytes(words);
+      if (bytes.below(nonsense_share) == 0) {
+        const std::string where = told_nonsense(claim, solids, bytes);
+        if (where.empty()) continue;
+        ++tallies["solids: nonsense"].rejected;
+        if (verdict_on(solids, claim).accepted) throw Finding("nonsense about solids is accepted: " + where);
+        continue;
+      }
       const std::string lie = told_a_lie(lies_in(claim), claim, scene, bytes);
       if (lie.empty()) continue;
       what = pretence == "the right one" ? lie : "a lie about other solids";

@@ -22,6 +22,7 @@
 #include "planar_parts.h"
 #include "quadratic_roots.h"
 #include "readers.h"
+#include "refusals.h"
 #include "scene_laws.h"
 #include "separations.h"
 #include "side.h"
@@ -71,6 +72,7 @@ inline const std::vector<Target>& targets() {
                                        {"scene_laws", scene_laws, {}},
                                        {"separations", separations, {}},
                                        {"decisions", decisions, {}},
+                                       {"refusals", refusals, {}},
                                        {"arcs", arcs, {}},
                                        {"planar_parts", planar_parts, {}},
                                        {"cutset", cutset, {}},

@@ -98,5 +98,18 @@ TEST(Sources, have_the_strict_corners_of_the_definition_wherever_they_lie) {
   EXPECT_GT(with_straight_corners, 100u);
 }
 
+TEST(Sources, that_go_around_twice_are_refused) {
+  const Corners triangle{{0, 0, 0}, {4, 0, 1}, {0, 4, 1}},
+      square{{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  for (const Corners& once : {triangle, square}) {
+    EXPECT_EQ(strict_corners(once).size(), once.size() == 3 ? 3u : 4u);
+    Corners twice = once;
+    twice.insert(twice.end(), once.begin(), once.end());
+    EXPECT_THROW(strict_corners(twice), std::invalid_argument);
+    std::reverse(twice.begin(), twice.end());
+    EXPECT_THROW(strict_corners(twice), std::invalid_argument);
+  }
+}
+
 }  // namespace
 }  // namespace weak_sources
