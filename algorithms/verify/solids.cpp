@@ -332,8 +332,12 @@ class Solid_check {
     for (Rational& x : sum) x /= weights;
     return sum;
   }
+  /// Of a corner but the first, whose weight is 1. From the eleventh attempt on they grow, so that points go on coming:
+  /// others may touch the fragment in as many as they like.
   static unsigned long weight_of(std::size_t corner, std::size_t attempt) {
-    return static_cast<unsigned long>(1 + (7 * corner + 13 * attempt * corner * corner + 5 * attempt) % 11);
+    constexpr std::size_t few = 11;
+    const std::size_t any = (7 * corner + 13 * attempt * corner * corner + 5 * attempt) % few;
+    return static_cast<unsigned long>(1 + any + attempt / few * corner);
   }
 
   /// The same in doubles: of the point in the fragment's plane, two coordinates exactly; nothing where they do not tell

@@ -414,6 +414,46 @@ TEST(Checker, refuses_a_result_whose_faces_cross_themselves) {
             "face 12 of the result crosses itself, or winds round some of it otherwise than once");
 }
 
+TEST(Checker, ends_where_others_touch_a_fragment_in_all_points_that_it_tries_first) {
+  // Tips of tetrahedra on a triangle: at the points by which its winding numbers are asked for, whichever corner is its
+  // first.
+  const std::array<Exact_point, 3> top{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  std::set<Exact_point> touched;
+  for (std::size_t first = 0; first < 3; ++first)
+    for (std::size_t attempt = 0; attempt < 11; ++attempt) {
+      Exact_point sum = top[first];
+      Rational weights = 1;
+      for (const std::size_t k : {1u, 2u}) {
+        const Rational weight = static_cast<long>(1 + (7 * k + 13 * attempt * k * k + 5 * attempt) % 11);
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * top[(first + k) % 3][c];
+        weights += weight;
+      }
+      for (Rational& x : sum) x /= weights;
+      touched.insert(sum);
+    }
+  ASSERT_EQ(touched.size(), 33u);
+  const auto tetrahedron = [](Polygon_soup& soup, const std::array<Exact_point, 4>& corners) {
+    const auto first = static_cast<Point_id>(soup.point_count());
+    for (const Exact_point& p : corners) soup.add_point(p[0], p[1], p[2]);
+    for (const auto& face : {std::array{1u, 2u, 3u}, {0u, 2u, 1u}, {0u, 3u, 2u}, {0u, 1u, 3u}})
+      soup.add_face({first + face[0], first + face[1], first + face[2]});
+  };
+  std::vector<Polygon_soup> solids(2);
+  tetrahedron(solids[0], {{{0, 0, -1}, top[0], top[1], top[2]}});
+  const Rational e(1, 10000);
+  for (const Exact_point& p : touched)
+    tetrahedron(solids[1], {{p,
+                             {Rational(p[0] + e), p[1], e},
+                             {Rational(p[0] - e), Rational(p[1] + e), e},
+                             {Rational(p[0] - e), Rational(p[1] - e), e}}});
+  Set_options options;
+  options.keep_fragments = true;
+  const Operands operands(solids);
+  const Set_result result = set_operation(operands, options);
+  const Verdict verdict = verify_solids(solids, solid_certificate(operands, options, result), &result.soup);
+  EXPECT_TRUE(verdict.accepted) << verdict.why;
+}
+
 TEST(Checker, takes_neighbours_for_one_patch_only_if_their_fronts_are_on_one_side) {
   // A cube, and one of its faces twice more: first turned round, so that its fragment's front looks inwards.
   Polygon_soup cube = box({0, 0, 0}, {2, 2, 2}), all;
