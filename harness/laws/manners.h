@@ -22,10 +22,12 @@ struct Question {
   std::string name;
   std::string (*ask)(const Posed_scene& posed, const Manner& manner, std::uint64_t choice);
   bool is_for_crowds = false;  ///< asked of many copies of a scene, too
+  bool always_tells = false;   ///< of progress, where the scene has faces that are not set aside
 };
 
 /// Of one scene in eight, if it has up to 40 faces: one of the questions is answered the same by several threads, with
-/// progress told, which is never more than all; and where who is told throws, that comes out, and nothing else.
+/// progress told, which is never more than all, nor nothing where a question always tells; and where who is told
+/// throws, that comes out, and nothing else.
 Check manners_check(std::vector<Question> questions);
 
 // The questions of commands, in questions.cpp.

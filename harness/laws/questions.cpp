@@ -405,20 +405,25 @@ std::string set_of_solids(const Posed_scene& posed, const Manner& manner, std::u
 using namespace questions;
 
 std::vector<Question> questions_of_see() {
-  return {{"what is seen", surface, true},
+  return {{"what is seen", surface, true, true},
           {"the verdict on what is seen", seen_verdict},
           {"the line drawing", lines},
           {"what is seen on a way", way}};
 }
-std::vector<Question> questions_of_order() { return {{"the tree", tree, true}, {"the priority tree", priority_tree}}; }
+std::vector<Question> questions_of_order() {
+  return {{"the tree", tree, true, true}, {"the priority tree", priority_tree, false, true}};
+}
 std::vector<Question> questions_of_graph() { return {{"components", components, true}, {"arcs", arcs, true}}; }
 std::vector<Question> questions_of_weak() {
-  return {{"what may be visible", possibly, true}, {"what is weakly visible", weakly}};
+  return {{"what may be visible", possibly, true, true}, {"what is weakly visible", weakly, false, true}};
 }
 std::vector<Question> questions_of_pvs() {
-  return {{"cells", cells, true}, {"faces by cell", faces_by_cell}, {"cells by cell", cells_by_cell}};
+  return {
+      {"cells", cells, true, true}, {"faces by cell", faces_by_cell, false, true}, {"cells by cell", cells_by_cell}};
 }
-std::vector<Question> questions_of_shadow() { return {{"what is lit", parts, true}, {"the shadow volume", volume}}; }
+std::vector<Question> questions_of_shadow() {
+  return {{"what is lit", parts, true, true}, {"the shadow volume", volume}};
+}
 std::vector<Question> questions_of_render() {
   return {{"the image", image, true}, {"the blended image", blended}, {"the surface of two trees", two_trees}};
 }

@@ -77,8 +77,13 @@ Outcome from_both_sides(const Posed_scene& posed, const Answer& answer, Random& 
   events.threads = options.threads;
   Told told_by_events;
   events.progress = told_by_events.teller();
+  std::atomic<std::size_t> asks{0};
+  events.out_of_time = [&] { return ++asks == 0; };
   const Weakly_visible_by_events by_events = weakly_visible_by_events(occluders, sources, events);
   if (!told_by_events.is_whole()) return Outcome::failed("events do not tell of each face once");
+  const Event_counters& counters = by_events.counters;
+  if (asks < counters.horizon + counters.edge_vertex + counters.triple)
+    return Outcome::failed("events do not ask before each of them whether there is time");
   return compared(lines, labelled(posed.soup, by_events), "lines from both sides", "events from both sides");
 }
 
