@@ -84,6 +84,15 @@ std::string surface(const Posed_scene& posed, const Manner& manner, std::uint64_
   const Exact_view view(scene, posed.eye);
   const auto seen = visible_surface(view, Piece_boxes(scene), visible_options(manner));
   std::ostringstream out;
+  write_visible_certificate(out, view, seen, posed.eye);
+  return out.str();
+}
+
+std::string seen_certificate(const Posed_scene& posed, const Manner& manner, std::uint64_t) {
+  const Scene scene(posed.soup);
+  const Exact_view view(scene, posed.eye);
+  const auto seen = visible_surface(view, Piece_boxes(scene), visible_options({}));
+  std::ostringstream out;
   write_visible_certificate(out, view, seen, posed.eye, {}, manner.progress);
   return out.str();
 }
@@ -406,6 +415,7 @@ using namespace questions;
 
 std::vector<Question> questions_of_see() {
   return {{"what is seen", surface, true, true},
+          {"the certificate of what is seen", seen_certificate, true},
           {"the verdict on what is seen", seen_verdict},
           {"the line drawing", lines},
           {"what is seen on a way", way}};

@@ -614,9 +614,11 @@ TEST(Rays, are_written_and_read) {
   const std::string text = to_json(query).dump();
   EXPECT_EQ(text, R"({"query":"trace","rays":[{"origin":[0.5,"1/3",-3.0],"direction":[0.0,0.0,-1.0]}]})");
   EXPECT_EQ(to_json(query_from_json(nlohmann::json::parse(text))).dump(), text);
-  for (const char* bad : {R"({"query":"trace"})", R"({"query":"trace","rays":1})", R"({"query":"trace","rays":[1]})",
-                          R"({"query":"trace","rays":[{"origin":[0,0,0]}]})",
-                          R"({"query":"trace","rays":[{"origin":[0,0,0],"direction":[0,0]}]})"})
+  for (const char* bad :
+       {R"({"query":"trace"})", R"({"query":"trace","rays":1})", R"({"query":"trace","rays":[1]})",
+        R"({"query":"trace","rays":[{"origin":[0,0,0]}]})", R"({"query":"trace","rays":[{"direction":[0,0,1]}]})",
+        R"({"query":"trace","rays":[[[0,0,0],[0,0,1]]]})",
+        R"({"query":"trace","rays":[{"origin":[0,0,0],"direction":[0,0]}]})"})
     EXPECT_THROW(query_from_json(nlohmann::json::parse(bad)), std::invalid_argument) << bad;
   EXPECT_NE(truth_of(tower({0}), rays({})).not_asked, "");
   EXPECT_NE(truth_of(tower({0}), rays({{{0, 0, 1}, {0, 0, 0}}})).not_asked, "");
