@@ -45,6 +45,12 @@ TEST(Stl, text_may_hold_several_solids_and_capitals) {
       read_text("solid\nFACET NORMAL nan -nan 0 OUTER LOOP VERTEX 1 0 0\nVertex 2 0 0 ENDLOOP ENDFACET\nendsolid\n",
                 stl),
       "1 0 0, 2 0 0 | 0 1");
+  for (const std::string wrong : {"FACTS", "FACEU", "GACET", "fACEt0"})
+    EXPECT_TRUE(error_of("solid\n" + wrong +
+                             " normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                             "endloop\nendfacet\nendsolid\n",
+                         stl))
+        << wrong;
 }
 
 TEST(Stl, text_that_is_cut_off_is_an_error_at_its_end) {
