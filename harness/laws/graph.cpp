@@ -14,6 +14,7 @@
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/priority_laws.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/polygon_soup.h>

@@ -15,6 +15,7 @@
 #include <sightline/harness/laws/level_groups.h>
 #include <sightline/harness/laws/level_hasty.h>
 #include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>

@@ -30,14 +30,4 @@ struct Question {
 /// throws, that comes out, and nothing else.
 Check manners_check(std::vector<Question> questions);
 
-// The questions of commands, in questions.cpp.
-std::vector<Question> questions_of_see();
-std::vector<Question> questions_of_order();
-std::vector<Question> questions_of_graph();
-std::vector<Question> questions_of_weak();
-std::vector<Question> questions_of_pvs();
-std::vector<Question> questions_of_shadow();
-std::vector<Question> questions_of_render();
-std::vector<Question> questions_of_boolean();
-
 }  // namespace sightline::harness

@@ -17,6 +17,7 @@
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/solid_laws.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>

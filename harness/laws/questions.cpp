@@ -1,4 +1,4 @@
-// What commands are asked in all manners: each question's answer as text.
+#include <sightline/harness/laws/questions.h>
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/image/blend.h>
@@ -34,7 +34,6 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/harness/generate/pixel_views.h>
-#include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/solids.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/threads.h>

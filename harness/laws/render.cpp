@@ -26,6 +26,7 @@
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/window_laws.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/exact_traits.h>

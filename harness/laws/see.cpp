@@ -19,6 +19,7 @@
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/see_lines.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/vectors.h>
 

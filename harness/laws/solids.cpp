@@ -11,6 +11,7 @@
 #include <sightline/harness/laws/judge_laws.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/solid_oracle.h>
 #include <sightline/harness/laws/solid_proof.h>
 #include <sightline/harness/laws/solid_retold.h>

@@ -18,6 +18,7 @@
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/naive_weak.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/weak_answers.h>
 #include <sightline/harness/laws/weak_options.h>
 #include <sightline/harness/laws/weak_partition.h>

@@ -224,15 +224,17 @@ TEST(Tree, progress_counts_every_fragment_once) {
       Bsp_options options;
       options.threads = threads;
       std::mutex mutex;
-      std::size_t calls = 0, most = 0, all = 0;
+      std::size_t calls = 0, most = 0, all = 0, beyond = 0;
       options.progress = [&](std::size_t done, std::size_t of) {
         const std::lock_guard lock(mutex);
         ++calls;
         most = std::max(most, done);
-        all = of;
+        all = std::max(all, of);
+        beyond += done > of;
       };
       const Built built(soup, options);
-      EXPECT_EQ(all, built.scene.pieces().size());
+      EXPECT_EQ(all, built.scene.pieces().size() + built.tree.counters.splits);
+      EXPECT_EQ(beyond, 0u);
       EXPECT_EQ(most, built.tree.fragments.size());
       EXPECT_EQ(calls, static_cast<std::size_t>(std::count_if(built.tree.nodes.begin(), built.tree.nodes.end(),
                                                               [](const Tree::Node& n) { return n.count > 0; })));
