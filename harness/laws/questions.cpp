@@ -40,6 +40,7 @@
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -401,9 +402,13 @@ std::string set_of_solids(const Posed_scene& posed, const Manner& manner, std::u
     put_verdict(out, verify_solids(solids, claim, &result.soup, verifying(manner)));
     const Polygon_soup flat = without_holes(result.soup).soup;
     const auto to = choice % 2 == 0 ? Rounding::to_double : Rounding::to_float;
-    put_soup(out, (choice % 3 == 0 ? snapped(flat, to, false, manner.progress)
-                                   : rounded(flat, to, choice % 5 == 0, manner.progress))
-                      .soup);
+    try {
+      put_soup(out, (choice % 3 == 0 ? snapped(flat, to, false, manner.progress)
+                                     : rounded(flat, to, choice % 5 == 0, manner.progress))
+                        .soup);
+    } catch (const std::domain_error& error) {  // beyond what the numbers hold
+      out << error.what();
+    }
   });
   return out.str();
 }
