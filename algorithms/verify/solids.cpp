@@ -543,7 +543,7 @@ class Solid_check {
   }
 
   /// In each plane, and from each side of it, the result's faces and what is kept are the same chain.
-  void check_result(const Polygon_soup& result) const {
+  void check_result(const Polygon_soup& result) {
     // 1. Faces that are a fragment, corner by corner, are what is kept of that.
     std::vector<std::pair<Number, std::size_t>> kept;  // by least number
     for (std::size_t i = 0; i < faces_.size(); ++i)
@@ -579,14 +579,10 @@ class Solid_check {
         for (const Number p : loop)
           if (side(plane, homogeneous(points_[p])) != 0)
             reject("a face of the result is not planar near " + name(points_[p]));
-      if (self_intersecting(Face(result, f)))
+      const Face face(result, f);  // its holes run against its outer loop
+      if (self_intersecting(face))
         reject(name("face", f) + " of the result crosses itself, or winds round some of it otherwise than once");
-      planes[plane].add(loops[0], 1);
-      for (std::size_t k = 1; k < loops.size(); ++k) {
-        Polygon hole;
-        for (const Number p : loops[k]) hole.push_back(points_[p]);
-        planes[plane].add(loops[k], sign_of_dot(newell_normal(hole), normal) > 0 ? -1 : 1);  // either sense
-      }
+      for (const Polygon& loop : face.loops) planes[plane].add(points_.add(loop), 1);
     }
     for (const auto& [least, i] : kept) {
       if (is_found[i]) continue;

@@ -266,20 +266,19 @@ std::string cells(const Posed_scene& posed, const Manner& manner, std::uint64_t 
   return out.str();
 }
 
-std::string faces_by_cell(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
-  const Pvs pvs = potentially_visible(level_of(posed, {}, choice), pvs_options(manner));
-  if (pvs.counters.undecided > 0) return {};
+/// Of a table in which all is decided; what is not may be another pair each time.
+template <class Table>
+std::string text_of(const Table& table) {
+  if (table.counters.undecided > 0) return {};
   std::ostringstream out;
-  put_rows(out, pvs.visible);
+  put_rows(out, table.visible);
   return out.str();
 }
-
+std::string faces_by_cell(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
+  return text_of(potentially_visible(level_of(posed, {}, choice), pvs_options(manner)));
+}
 std::string cells_by_cell(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
-  const Cell_pvs pvs = mutually_visible_cells(level_of(posed, {}, choice), pvs_options(manner));
-  if (pvs.counters.undecided > 0) return {};
-  std::ostringstream out;
-  put_rows(out, pvs.visible);
-  return out.str();
+  return text_of(mutually_visible_cells(level_of(posed, {}, choice), pvs_options(manner)));
 }
 
 // ---- Shadows

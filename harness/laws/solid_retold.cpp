@@ -52,19 +52,10 @@ Polygon_soup soup_of(const Surface_loops& faces, bool is_shared) {
   return soup;
 }
 
-Exact_point middle(const Exact_point& p, const Exact_point& q) {
-  Exact_point m;
-  for (std::size_t k = 0; k < 3; ++k) m[k] = (p[k] + q[k]) / 2;
-  return m;
-}
-
-Exact_point normal_of(const Points& loop) {
-  Exact_point normal{0, 0, 0};
-  for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
-    const Exact_point part = cross(minus(loop[k], loop[0]), minus(loop[k + 1], loop[0]));
-    for (std::size_t c = 0; c < 3; ++c) normal[c] += part[c];
-  }
-  return normal;
+/// An axis along which a point of a face leaves its plane. Pre: it has area.
+std::size_t axis_off(const Points& loop) {
+  const Exact_point normal = Flat_face(loop).normal;
+  return normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2;
 }
 
 /// A face that has a hole; none: the number of faces.
@@ -79,7 +70,7 @@ std::size_t any_with_hole(const Surface_loops& faces, Random& random) {
 void cut_triangle(Surface_loops& faces, std::size_t f) {
   if (faces[f].size() != 1 || faces[f][0].size() != 3) return;
   const Points loop = faces[f][0];
-  const Exact_point m = middle(loop[1], loop[2]);
+  const Exact_point m = generate::centroid({loop[1], loop[2]});
   faces[f][0] = {loop[0], loop[1], m};
   faces.push_back({{loop[0], m, loop[2]}});
 }
@@ -91,7 +82,7 @@ void retell(Surface_loops& faces, Random& random) {
     for (Points& loop : faces[f]) {
       std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(random.below(loop.size())), loop.end());
       if (&loop != &faces[f][0] && random.chance(1, 2)) std::reverse(loop.begin(), loop.end());
-      if (random.chance(1, 8)) loop.push_back(middle(loop.back(), loop.front()));
+      if (random.chance(1, 8)) loop.push_back(generate::centroid({loop.back(), loop.front()}));
     }
     if (random.chance(1, 8)) cut_triangle(faces, f);
   }
@@ -118,10 +109,9 @@ std::string forge(Surface_loops& faces, const std::vector<Result_fragment>& frag
       for (Points& loop : faces[f]) std::reverse(loop.begin(), loop.end());
       return "a face turned round";
     case 4: {  // everywhere: what it leaves no longer has its area, and nothing comes there
-      const Exact_point from = outer[i], normal = normal_of(outer);
+      const Exact_point from = outer[i];
       Exact_point to = from;
-      const std::size_t axis = normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2;
-      to[axis] += Rational(1, 1024);
+      to[axis_off(outer)] += Rational(1, 1024);
       for (Face_loops& face : faces)
         for (Points& loop : face) std::replace(loop.begin(), loop.end(), from, to);
       return "a corner elsewhere";
@@ -145,12 +135,10 @@ std::string forge(Surface_loops& faces, const std::vector<Result_fragment>& frag
       return "a loop that goes round twice";
     }
     default: {  // its area is in another plane
-      Points spread = outer;
-      for (Exact_point& p : spread) p[normal_of(outer)[0] != 0 ? 0 : normal_of(outer)[1] != 0 ? 1 : 2] += 1;
-      std::reverse(spread.begin(), spread.end());
-      faces.push_back({spread});
-      std::reverse(spread.begin(), spread.end());
-      faces.push_back({spread});
+      Points leaf = outer;
+      for (Exact_point& p : leaf) p[axis_off(outer)] += 1;
+      faces.push_back({Points(leaf.rbegin(), leaf.rend())});
+      faces.push_back({leaf});
       return "a leaf of two faces";
     }
   }

@@ -78,7 +78,10 @@ Outcome from_both_sides(const Posed_scene& posed, const Answer& answer, Random& 
   Told told_by_events;
   events.progress = told_by_events.teller();
   std::atomic<std::size_t> asks{0};
-  events.out_of_time = [&] { return ++asks == 0; };
+  events.out_of_time = [&] {
+    ++asks;
+    return false;
+  };
   const Weakly_visible_by_events by_events = weakly_visible_by_events(occluders, sources, events);
   if (!told_by_events.is_whole()) return Outcome::failed("events do not tell of each face once");
   const Event_counters& counters = by_events.counters;

@@ -130,14 +130,12 @@ inline void try_source(Bytes& from) {
   std::vector<Exact_point> points;
   for (const Flat_point& p : loop) points.push_back(in_space(p));
   std::vector<Flat_point> expected = corners_of_source(loop);
-  bool is_flat = true;
   if (expected.size() > 3 && from.below(4) == 0) {  // a corner of four or more is off the plane of the others
     const auto moved = in_space(expected[from.below(expected.size())]);
-    is_flat = false;
     for (Exact_point& p : points)
       if (p == moved) p[2] += Rational(1, Integer(1) << (1 + from.below(80)));
+    expected.clear();
   }
-  if (!is_flat) expected.clear();
 
   // 2. What is said of it.
   std::vector<Exact_point> found;
