@@ -77,7 +77,7 @@ if(SIGHTLINE_TESTS)
   else()
     add_test(NAME python.module COMMAND "${python}" -m pytest -q -p no:cacheprovider -rs "${CMAKE_CURRENT_LIST_DIR}/tests"
              WORKING_DIRECTORY "${PROJECT_BINARY_DIR}/python")
-    set_tests_properties(python.module PROPERTIES TIMEOUT 600 ENVIRONMENT
+    set_tests_properties(python.module PROPERTIES TIMEOUT 600 COST 40 ENVIRONMENT
       "PYTHONPATH=${PROJECT_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;SIGHTLINE_BUILD_DIR=${PROJECT_BINARY_DIR};MPLBACKEND=Agg")
   endif()
 endif()

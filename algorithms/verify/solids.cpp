@@ -332,12 +332,13 @@ class Solid_check {
     for (Rational& x : sum) x /= weights;
     return sum;
   }
-  /// Of a corner but the first, whose weight is 1. From the eleventh attempt on they grow, so that points go on coming:
-  /// others may touch the fragment in as many as they like.
+  /// Of a corner but the first, whose weight is 1. From the eleventh attempt on that of the second grows, and that of
+  /// the third with its square: points go on coming along conics, of which no line has more than two, so that edges of
+  /// others, which may touch the fragment wherever they like, are beside all but a few.
   static unsigned long weight_of(std::size_t corner, std::size_t attempt) {
     constexpr std::size_t few = 11;
-    const std::size_t any = (7 * corner + 13 * attempt * corner * corner + 5 * attempt) % few;
-    return static_cast<unsigned long>(1 + any + attempt / few * corner);
+    const std::size_t any = (7 * corner + 13 * attempt * corner * corner + 5 * attempt) % few, turn = attempt / few;
+    return static_cast<unsigned long>(1 + any + (corner == 1 ? turn : corner == 2 ? turn * turn : 0));
   }
 
   /// The same in doubles: of the point in the fragment's plane, two coordinates exactly; nothing where they do not tell
@@ -421,57 +422,6 @@ class Solid_check {
                       [](const Solid_face& face, std::size_t k) -> const Solid_point& { return *face.corners[k]; });
   }
 
-  /// The same by a ray in any direction, past all fragments.
-  Numbers numbers_by_brute_force(std::size_t i) const {
-    for (std::size_t attempt = 0;; ++attempt) {
-      const Homogeneous p = homogeneous(point_inside(i, attempt));
-      const Integer_vector d{Integer(static_cast<unsigned long>(1009 + 31 * attempt)),
-                             Integer(static_cast<unsigned long>(97 + attempt * attempt)),
-                             Integer(static_cast<unsigned long>(10007))};
-      if (const auto found = numbers_along(i, p, d)) return *found;
-    }
-  }
-  std::optional<Numbers> numbers_along(std::size_t i, const Homogeneous& p, const Integer_vector& d) const {
-    const auto slope = [&](const Homogeneous& plane) {
-      return sgn(Integer(plane[0] * d[0] + plane[1] * d[1] + plane[2] * d[2]));
-    };
-    if (slope(faces_[i].plane) == 0) return std::nullopt;
-    Numbers sum;
-    for (std::size_t j = 0; j < faces_.size(); ++j) {
-      if (j == i) continue;
-      const Solid_face& face = faces_[j];
-      const Integer value = height(face.plane, p);
-      const int along = slope(face.plane), here = sgn(value);
-      if (along == 0 && here != 0) continue;
-      if (along == 0) return std::nullopt;
-      if (here == along) continue;
-      // Where the ray meets its plane: p + t d. At p itself, a face beside this one in its plane is not met.
-      const Integer rate = face.plane[0] * d[0] + face.plane[1] * d[1] + face.plane[2] * d[2];
-      Exact_point q;
-      for (std::size_t k = 0; k < 3; ++k) {
-        q[k] = Rational(p[k] * rate - value * d[k], p[3] * rate);
-        q[k].canonicalize();
-      }
-      const Solid_point met(q);
-      const std::size_t size = face.corners.size();
-      const int sense = sgn(face.plane[face.axis]);
-      bool outside = false, on = false;
-      for (std::size_t k = 0; k < size; ++k) {
-        const int turn = turn_along(*face.corners[k], *face.corners[(k + 1) % size], met, face.axis) * sense;
-        outside |= turn < 0;
-        on |= turn == 0;
-      }
-      if (outside) continue;
-      if (on || here == 0) return std::nullopt;
-      for (const Solid_certificate::Part& part : claim_.fragments[j].parts)
-        add_step(sum, part.operand, part.turned ? -along : along);
-    }
-    if (slope(faces_[i].plane) < 0)
-      for (const Solid_certificate::Part& part : claim_.fragments[i].parts)
-        add_step(sum, part.operand, part.turned ? 1 : -1);
-    return in_order(std::move(sum));
-  }
-
   bool is_in_result(const Numbers& numbers) const {
     std::size_t inside = 0;
     bool first = false;
@@ -499,12 +449,11 @@ class Solid_check {
     for_each_below(first.size(), 20, workers_, [&](std::size_t k) {
       const std::size_t i = first[k];
       std::optional<Numbers> found;
-      constexpr std::size_t attempts = 4;
-      for (std::size_t attempt = 0; attempt < attempts && !found; ++attempt)
+      constexpr std::size_t attempts_in_doubles = 4;
+      for (std::size_t attempt = 0; attempt < attempts_in_doubles && !found; ++attempt)
         found = numbers_by_doubles(tree, i, attempt);
-      for (std::size_t attempt = 0; attempt < attempts && !found; ++attempt)
-        found = numbers_by_integers(tree, i, attempt);
-      numbers[i] = found ? *found : numbers_by_brute_force(i);
+      for (std::size_t attempt = 0; !found; ++attempt) found = numbers_by_integers(tree, i, attempt);
+      numbers[i] = std::move(*found);
     });
     for_each_below(faces_.size(), 1000, workers_, [&](std::size_t i) { check_fate(i, numbers[least[i]]); });
   }

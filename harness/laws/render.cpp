@@ -23,7 +23,9 @@
 #include <sightline/harness/compare/pixel_squares.h>
 #include <sightline/harness/generate/pixel_views.h>
 #include <sightline/harness/laws/depth_laws.h>
+#include <sightline/harness/laws/few_bits.h>
 #include <sightline/harness/laws/flat_faces.h>
+#include <sightline/harness/laws/images.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/questions.h>
@@ -41,11 +43,7 @@ namespace sightline::harness {
 
 namespace render_subject {
 
-Image_options serial() {
-  Image_options options;
-  options.threads = 1;
-  return options;
-}
+using namespace images;
 
 /// A view along an axis, 90 degrees wide.
 Pixel_view cube_view(const Exact_point& eye, const Cube_side& side) {
@@ -72,44 +70,7 @@ Answer shown(const Posed_scene& posed) {
   return answer;
 }
 
-std::string place(const Pixel_view& pixels, std::size_t i) {
-  return "pixel " + std::to_string(i % pixels.width) + "," + std::to_string(i / pixels.width);
-}
-std::string name(std::uint32_t piece) {
-  return piece == Piece_image::nothing ? "nothing" : "piece " + std::to_string(piece);
-}
-
-/// Both show the same off ties; everywhere, where `ties` says that rules are the same.
-Outcome same(const Pixel_view& pixels, const Piece_image& truth, const Piece_image& image, const std::string& method,
-             bool ties) {
-  for (std::size_t i = 0; i < truth.pieces.size(); ++i)
-    if ((ties || !truth.tied[i]) && truth.pieces[i] != image.pieces[i])
-      return Outcome::failed(place(pixels, i) + " shows " + name(truth.pieces[i]) + " to an exact ray, " +
-                             name(image.pieces[i]) + " by " + method);
-  return {};
-}
-
 // ---- Checks, each in a view of its own
-
-/// A view with its truth.
-struct Seen {
-  const Polygon_soup& soup;
-  Scene scene;
-  Pixel_view pixels;
-
-  Seen(const Posed_scene& posed, Random& random)
-      : soup(posed.soup), scene(posed.soup), pixels(generate::any_pixel_view(posed.soup, posed.eye, random)) {}
-  Piece_image truth() const { return centres(Exact_view(scene, pixels.eye), pixels, serial()); }
-};
-
-using Image_check = Outcome (*)(const Seen&);
-
-Check check_of(const std::string& name, const std::string& what, Image_check run) {
-  return {name, what, [run](const Posed_scene& posed, const Answer&, Random& random) {
-            if (posed.soup.point_count() == 0) return Outcome::not_applicable();
-            return run(Seen(posed, random));
-          }};
-}
 
 using Surface = Visible_surface<Exact_view>;
 
@@ -263,37 +224,6 @@ Outcome heedless(const Seen& seen) {
         return Outcome::failed(place(seen.pixels, i) + " shows " + name(image.pieces[i]) +
                                " by a heedless painter, not " + name(top) + ", whose key comes last");
     }
-  }
-  return {};
-}
-
-/// Whether all corners, the eye, and all directions are multiples of 1/8 up to `most`.
-bool has_small_numbers(const Seen& seen, long most) {
-  const auto is_small = [&](const Exact_point& v) {
-    return std::all_of(v.begin(), v.end(),
-                       [&](const Rational& x) { return abs(x) <= most && Rational(8 * x).get_den() == 1; });
-  };
-  for (const std::array<double, 3>& v : {seen.pixels.look, seen.pixels.right, seen.pixels.up})
-    if (!is_small({exact(v[0]), exact(v[1]), exact(v[2])})) return false;
-  for (Point_id p = 0; p < seen.soup.point_count(); ++p)
-    if (!is_small(seen.soup.point(p))) return false;
-  return is_small(seen.pixels.eye);
-}
-
-/// In floats and doubles, too, spans and windows show what exact rays do, where nothing is tied and numbers are so
-/// small that rounding tells all signs but those that are zero.
-Outcome in_few_bits(const Seen& seen) {
-  if (!has_small_numbers(seen, 256)) return Outcome::not_applicable();
-  const Piece_image truth = seen.truth();
-  for (const Image_kernel kernel : {Image_kernel::double_numbers, Image_kernel::float_numbers}) {
-    if (kernel == Image_kernel::float_numbers && !has_small_numbers(seen, 8)) break;
-    const std::string numbers = kernel == Image_kernel::double_numbers ? " in doubles" : " in floats";
-    const Outcome spans =
-        same(seen.pixels, truth, scan_line(seen.scene, seen.pixels, kernel, serial()), "spans" + numbers, false);
-    if (spans.state != Outcome::State::passed) return spans;
-    const Outcome windows =
-        same(seen.pixels, truth, warnock(seen.scene, seen.pixels, kernel, serial()), "windows" + numbers, false);
-    if (windows.state != Outcome::State::passed) return windows;
   }
   return {};
 }
@@ -478,8 +408,7 @@ Subject render() {
   // Behind the others, whose random numbers depend on their places.
   subject.checks.push_back(windows_check());
   subject.checks.push_back(check_of("heedless", "the heedless painters show what comes last by their keys", heedless));
-  subject.checks.push_back(
-      check_of("few_bits", "small numbers in floats and doubles show what exact rays do", in_few_bits));
+  subject.checks.push_back(few_bits_check());
   subject.checks.push_back(check_of("squares", "a pixel's mean is that of areas in rationals", in_squares<false>));
   subject.checks.push_back(check_of("squares_layers", "so it is where faces let light through", in_squares<true>));
   subject.checks.push_back(depth_check());

@@ -20,6 +20,8 @@
 #include <sightline/harness/laws/naive_weak.h>
 #include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/weak_answers.h>
+#include <sightline/harness/laws/weak_hurried.h>
+#include <sightline/harness/laws/weak_open.h>
 #include <sightline/harness/laws/weak_options.h>
 #include <sightline/harness/laws/weak_partition.h>
 #include <sightline/harness/laws/weak_volume.h>
@@ -153,8 +155,9 @@ Subject weak() {
       {"shafts", "the same faces by events in parts of shafts",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer, 0); }});
   subject.checks.push_back(weak_budget_check());  // behind the others, which keep their random choices; so are these
-  for (Check check : {conservative_check(), settle_check(), along_check(), volume_check(), partition_check(),
-                      outline_check(), naive_weak_check(), two_sided_check(), rest_check()})
+  for (Check check :
+       {conservative_check(), settle_check(), along_check(), volume_check(), partition_check(), outline_check(),
+        naive_weak_check(), two_sided_check(), rest_check(), open_check(), hurried_check()})
     subject.checks.push_back(std::move(check));
   subject.checks.push_back(manners_check(questions_of_weak()));
   return subject;

@@ -33,4 +33,4 @@ else()
 endif()
 add_test(NAME faults.sample COMMAND "${CMAKE_COMMAND}" -D "LIST=${sample_list}" -D "LOST=${planted_lost}" -D "BUILD=${PROJECT_BINARY_DIR}"
          -P tests/faults/sample_test.cmake WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
-set_tests_properties(faults.sample PROPERTIES TIMEOUT 1200 SKIP_REGULAR_EXPRESSION "^faults.sample: skipped")
+set_tests_properties(faults.sample PROPERTIES TIMEOUT 1200 COST 35 SKIP_REGULAR_EXPRESSION "^faults.sample: skipped")

@@ -1,6 +1,7 @@
 #pragma once
 // Arcs of the priority relation from an eye that has faces on all sides, or from a region about it, against rays; and
-// components of the whole relation where faces are so small that doubles do not hold their planes, against all arcs.
+// components of the whole relation where faces are so small that doubles do not hold their planes, against all arcs;
+// and arcs of polygons of hundreds of corners, of which bisection looks at a few.
 
 #include "soups.h"
 
@@ -100,9 +101,90 @@ inline void try_components(Random& random) {
               "a component is what obscures one another, over others or not");
 }
 
+/// A convex polygon of so many corners or a few less, in any plane, begun anywhere. Most of its edges may look one way,
+/// so that few of them rise, or few fall, over a plane; opposite ones may be parallel.
+inline generate::Points of_many_corners(std::size_t n, Random& random) {
+  // 1. Edges around a turn, and one that closes it.
+  const bool is_even = random.chance(1, 3);
+  const std::int64_t bias_x = random.between(-9, 9), bias_y = random.between(-9, 9);
+  std::vector<std::array<std::int64_t, 2>> edges;
+  std::array<std::int64_t, 2> end{0, 0};
+  while (edges.size() + 1 < n) {
+    const std::array<std::int64_t, 2> d{random.between(-400, 400), random.between(-400, 400)};
+    if ((d[0] == 0 && d[1] == 0) || (!is_even && d[0] * bias_x + d[1] * bias_y < 0 && random.chance(7, 8))) continue;
+    edges.push_back(d);
+    if (is_even) edges.push_back({-d[0], -d[1]});
+    else end = {end[0] - d[0], end[1] - d[1]};
+  }
+  if (end[0] != 0 || end[1] != 0) edges.push_back(end);
+  const auto half = [](const std::array<std::int64_t, 2>& d) { return d[1] < 0 || (d[1] == 0 && d[0] < 0); };
+  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
+    return half(a) != half(b) ? half(a) < half(b) : a[0] * b[1] > a[1] * b[0];
+  });
+
+  // 2. Corners, in space.
+  const Exact_point u = generate::lattice(random, 2), v = generate::lattice(random, 2);
+  const Exact_point origin = generate::lattice(random, 1000);
+  generate::Points corners;
+  std::array<std::int64_t, 2> at{0, 0};
+  for (const auto& d : edges) {
+    corners.push_back(origin);
+    for (std::size_t k = 0; k < 3; ++k)
+      corners.back()[k] += Rational(static_cast<long>(at[0])) * u[k] + Rational(static_cast<long>(at[1])) * v[k];
+    at = {at[0] + d[0], at[1] + d[1]};
+  }
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(random.below(corners.size())),
+              corners.end());
+  return corners;
+}
+
+inline void try_many_corners(Random& random) {
+  // 1. Two such polygons, one of them in the other's plane at times, and triangles that have corners with them in
+  // common.
+  generate::Faces drawn;
+  for (int k = 0; k < 2; ++k) drawn.push_back(of_many_corners(8 + random.below(400), random));
+  if (random.chance(1, 4))
+    drawn[1].assign(drawn[0].begin(), drawn[0].begin() + static_cast<std::ptrdiff_t>(drawn[0].size() / 2));
+  for (generate::Points& face : drawn)
+    if (random.chance(1, 2)) std::reverse(face.begin(), face.end());
+  for (std::uint64_t k = 2 + random.below(6); k > 0; --k) {
+    generate::Points triangle;
+    for (int corner = 0; corner < 3; ++corner) {
+      const generate::Points& other = drawn[random.below(2)];
+      const std::uint64_t kind = random.below(3);
+      triangle.push_back(kind == 0 ? generate::lattice(random, 100000) : other[random.below(other.size())]);
+      if (kind == 1) triangle.back()[random.below(3)] += random.chance(1, 2) ? 1 : -1;
+    }
+    drawn.push_back(triangle);
+  }
+
+  // 2. Each pair by brute force.
+  const Scene scene(generate::soup_of(drawn));
+  const Exact_traits traits(scene);
+  const Priority_relation<Exact_traits> relation(traits);
+  const std::vector<Flat_face> faces = harness::flat_faces_of(scene);
+  Relation_counters counters;
+  for (std::uint32_t i = 0; i < faces.size(); ++i)
+    for (std::uint32_t j = 0; j < faces.size(); ++j) {
+      if (i == j) continue;
+      const bool forth = may_obscure(faces[i], faces[j]);
+      require(relation.may_obscure(i, j, counters) == forth,
+              "a polygon may obscure another one by its extreme corners");
+      const Arcs both = relation.arcs(i, j, counters);
+      require(both.forth == forth && both.back == may_obscure(faces[j], faces[i]),
+              "arcs of two polygons are each one's");
+      for (const Sign side : {CGAL::POSITIVE, CGAL::NEGATIVE}) {
+        const std::uint32_t found = relation.find_corner(i, side, j, counters.predicates);
+        require(found == faces[i].corners.size() || sgn(faces[j].height(faces[i].corners[found])) == side,
+                "a corner that is found is on the side asked for");
+      }
+    }
+}
+
 inline void arcs(std::string_view bytes) {
   Random random(Bytes(bytes).word());
-  if (random.chance(2, 3)) try_region(random);
+  if (random.chance(1, 8)) try_many_corners(random);
+  else if (random.chance(2, 3)) try_region(random);
   else try_components(random);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
-// Certificates with nonsense in them: a place in a list where the list ends, or a number that is not in lowest terms.
-// No checker may accept any of what it goes by; rays and lines count that something refers to.
+// Certificates with nonsense in them: a place in a list where the list ends, a number that is not in lowest terms, a
+// list that ends too early or goes on, what there is but cannot be. No checker may accept any of what it goes by; rays
+// and lines count that something refers to.
 
 #include "certificate.h"
 #include "support.h"
@@ -11,10 +12,12 @@
 #include <sightline/algorithms/verify/solids.h>
 #include <sightline/algorithms/verify/visible.h>
 #include <sightline/algorithms/verify/weak.h>
+#include <sightline/kernel/vectors.h>
 
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -46,6 +49,22 @@ class Nonsense {
     for (Exact_point& p : all) numbers(what, p);
   }
 
+  /// Nothing where something must be.
+  template <class List>
+  void emptied(const char* what, List& all) {
+    if (!all.empty()) way(what, [&all](Bytes&) { all.clear(); });
+  }
+  /// A proof without its end, or with more behind it.
+  template <class List>
+  void ended(const char* what, List& all) {
+    if (all.empty()) return;
+    way(what, [&all](Bytes& bytes) {
+      if (bytes.below(2) == 0) all.pop_back();
+      else all.push_back(all.back());
+    });
+  }
+  void way(const char* what, std::function<void(Bytes&)> say) { ways_.emplace_back(what, std::move(say)); }
+
   /// Says where; empty: nowhere.
   std::string tell(Bytes& bytes) const {
     if (ways_.empty()) return {};
@@ -62,12 +81,16 @@ inline void add_of_scene(Nonsense& nonsense, Covering& claim, std::size_t faces)
   for (Order_fragment& fragment : claim.fragments) {
     nonsense.place("fragment.face", fragment.face, faces);
     nonsense.points("fragment.vertices", fragment.vertices);
+    nonsense.emptied("fragment.vertices", fragment.vertices);
   }
   for (Covering::Piece& piece : claim.pieces) {
     nonsense.place("piece.face", piece.face, faces);
     nonsense.points("piece.vertices", piece.vertices);
   }
-  for (Covering::Set_aside& entry : claim.set_aside) nonsense.place("entry.face", entry.face, faces);
+  for (Covering::Set_aside& entry : claim.set_aside) {
+    nonsense.place("entry.face", entry.face, faces);
+    nonsense.way("entry.why", [&entry](Bytes& bytes) { entry.why = bytes.below(2) == 0 ? "" : " " + entry.why; });
+  }
 }
 
 inline void add_of_question(Nonsense& nonsense, Order_certificate& claim) { nonsense.numbers("claim.eye", claim.eye); }
@@ -87,17 +110,36 @@ inline void add_of_question(Nonsense& nonsense, Visible_certificate& claim) {
   for (Visible_certificate::Part& part : claim.parts) {
     nonsense.place("part.fragment", part.fragment, claim.fragments.size());
     if (part.rays.empty()) nonsense.points("part.vertices", part.vertices);
+    if (part.rays.empty()) nonsense.emptied("part.vertices", part.vertices);
+    nonsense.emptied("part.rays", part.rays);
     for (std::uint32_t& ray : part.rays) {
       if (ray < claim.rays.size()) nonsense.numbers("claim.rays", claim.rays[ray]);
       nonsense.place("ray", ray, claim.rays.size());
     }
   }
-  for (Visible_certificate::Directions& cone : claim.empty) nonsense.points("cone", cone);
+  for (Visible_certificate::Directions& cone : claim.empty) {
+    nonsense.points("cone", cone);
+    nonsense.emptied("cone", cone);
+  }
+}
+/// The plane that a polygon is in.
+inline std::array<Rational, 4> plane_through_corners(const Points& polygon) {
+  const Exact_point n = cross(minus(polygon[1], polygon[0]), minus(polygon[2], polygon[0]));
+  return {n[0], n[1], n[2], Rational(-dot(n, polygon[0]))};
 }
 inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
   using Kind = Weak_certificate::Node::Kind;
   const std::size_t fragments = claim.fragments.size(), sources = claim.sources.size();
-  for (Points& source : claim.sources) nonsense.points("source", source);
+  for (Points& source : claim.sources) {
+    nonsense.points("source", source);
+    nonsense.emptied("source", source);
+  }
+  nonsense.emptied("sources", claim.sources);
+  nonsense.way("undecided", [&claim](Bytes& bytes) {  // it is drawn and decided, or named twice, or none
+    const std::size_t at = bytes.below(256);
+    claim.undecided.push_back(claim.fragments.empty() || at == 255 ? ~Face_id{0}
+                                                                   : claim.fragments[at % claim.fragments.size()].face);
+  });
   for (Weak_certificate::Sightline& line : claim.visible) {
     nonsense.place("line.fragment", line.fragment, fragments);
     nonsense.place("line.source", line.source, sources);
@@ -117,7 +159,20 @@ inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
     nonsense.place("entry.fragment", entry.fragment, fragments);
     nonsense.place("entry.source", entry.source, sources);
     for (std::size_t& other : entry.also) nonsense.place("other", other, fragments);
+    nonsense.ended("entry.proof", entry.proof);
     for (Weak_certificate::Node& node : entry.proof) {
+      const bool is_cut = node.kind == Kind::cut_source || node.kind == Kind::cut_target;
+      if (is_cut && entry.source < sources && entry.fragment < fragments)
+        nonsense.way("a cut that holds all", [&claim, &entry, &node](Bytes&) {
+          node.plane = plane_through_corners(node.kind == Kind::cut_source ? claim.sources[entry.source]
+                                                              : claim.fragments[entry.fragment].vertices);
+        });
+      nonsense.emptied("node.terms", node.terms);
+      if (node.kind == Kind::empty && node.terms.empty())  // nothing is inside
+        nonsense.way("node.kind",
+                     [&node](Bytes& bytes) { node.kind = bytes.below(2) == 0 ? Kind::away : Kind::blocked; });
+      if (node.kind == Kind::blocked || node.kind == Kind::away)
+        nonsense.way("node.kind", [&node](Bytes&) { node.kind = Kind::empty; });
       if (node.kind == Kind::line) add_line(node.index);
       if (node.kind == Kind::blocked) nonsense.place("node.index", node.index, fragments);
       if (node.kind == Kind::cut_source || node.kind == Kind::cut_target) nonsense.numbers("node.plane", node.plane);
@@ -130,9 +185,12 @@ inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
     }
   }
 }
-inline void add_of_question(Nonsense& nonsense, Along_certificate& claim) {
+inline void add_of_question(Nonsense& nonsense, Along_certificate& claim, std::size_t faces) {
   const auto add_side = [&](Along_certificate::Side& side) {
+    if (side.kind == Along_certificate::Side::Kind::edge && side.fragment < claim.fragments.size())
+      nonsense.place("side.corner", side.corner, claim.fragments[side.fragment].vertices.size());
     nonsense.place("side.fragment", side.fragment, claim.fragments.size());
+    nonsense.way("side.sign", [&side](Bytes& bytes) { side.sign = 2 * static_cast<int>(bytes.below(2)); });
   };
   const auto add_range = [&](Along_certificate::Range& range) {
     nonsense.place("range.high", range.high, claim.moments.size());
@@ -143,12 +201,26 @@ inline void add_of_question(Nonsense& nonsense, Along_certificate& claim) {
     nonsense.numbers("moment.polynomial", moment.polynomial);
     nonsense.number("moment.low", moment.low);
     nonsense.number("moment.high", moment.high);
+    nonsense.way("moment", [&moment](Bytes& bytes) {
+      if (moment.low == moment.high) moment.low -= 1;
+      else if (bytes.below(2) == 0) std::swap(moment.low, moment.high);
+      else moment.polynomial[2] = 0;
+    });
   }
-  for (Along_certificate::Face& face : claim.faces)
+  nonsense.ended("moments", claim.moments);
+  if (!claim.faces.empty())
+    nonsense.way("a face twice", [&claim](Bytes&) { claim.faces.push_back(claim.faces.front()); });
+  for (Along_certificate::Face& face : claim.faces) {
+    nonsense.place("face.face", face.face, faces);
     for (Along_certificate::Range& range : face.seen) add_range(range);
+  }
   for (Along_certificate::Proof& proof : claim.proofs) {
     nonsense.place("proof.fragment", proof.fragment, claim.fragments.size());
     add_range(proof.range);
+    nonsense.ended("proof.tree", proof.tree);
+    nonsense.emptied("proof.tree", proof.tree);
+    nonsense.emptied("proof.cone", proof.cone);
+    if (!claim.two_sided) nonsense.way("proof.from_behind", [&proof](Bytes&) { proof.from_behind = true; });
     for (Along_certificate::Side& side : proof.cone) add_side(side);
     for (Along_certificate::Node& node : proof.tree) {
       if (node.is_cut) add_side(node.cut);
@@ -162,6 +234,7 @@ template <class Claim>
 std::string told_nonsense(Claim& claim, std::size_t faces, Bytes& bytes) {
   Nonsense nonsense;
   if (bytes.below(3) == 0) add_of_scene(nonsense, claim, faces);
+  else if constexpr (std::is_same_v<Claim, Along_certificate>) add_of_question(nonsense, claim, faces);
   else add_of_question(nonsense, claim);
   return nonsense.tell(bytes);
 }
@@ -190,6 +263,8 @@ inline std::string told_nonsense(Solid_certificate& claim, const std::vector<Pol
     }
     for (auto& [operand, number] : fragment.front) nonsense.place("operand", operand, solids.size());
     nonsense.points("fragment.vertices", fragment.vertices);
+    nonsense.emptied("fragment.vertices", fragment.vertices);
+    nonsense.emptied("fragment.parts", fragment.parts);
   }
   for (Solid_certificate::Piece& piece : claim.pieces) {
     if (piece.operand < solids.size()) nonsense.place("piece.face", piece.face, solids[piece.operand].face_count());
@@ -199,6 +274,7 @@ inline std::string told_nonsense(Solid_certificate& claim, const std::vector<Pol
   for (Solid_certificate::Set_aside& entry : claim.set_aside) {
     if (entry.operand < solids.size()) nonsense.place("entry.face", entry.face, solids[entry.operand].face_count());
     nonsense.place("entry.operand", entry.operand, solids.size());
+    nonsense.emptied("entry.why", entry.why);
   }
   return nonsense.tell(bytes);
 }

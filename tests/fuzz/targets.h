@@ -27,6 +27,7 @@
 #include "separations.h"
 #include "side.h"
 #include "text_numbers.h"
+#include "volumes.h"
 #include "weak_claims.h"
 
 #include <filesystem>
@@ -73,6 +74,7 @@ inline const std::vector<Target>& targets() {
                                        {"separations", separations, {}},
                                        {"decisions", decisions, {}},
                                        {"refusals", refusals, {}},
+                                       {"volumes", volumes, {}},
                                        {"arcs", arcs, {}},
                                        {"planar_parts", planar_parts, {}},
                                        {"cutset", cutset, {}},

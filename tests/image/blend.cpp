@@ -171,4 +171,17 @@ TEST(Tints, that_are_missing_or_no_numbers_are_refused) {
   EXPECT_THROW(weighted_blended(panes.scene, panes.pixels, {}), std::invalid_argument);
 }
 
+TEST(Blended_painting, gives_a_level_border_to_what_is_above_it) {
+  using view_scenes::at;
+  const auto pane = [](std::uint32_t piece, int low, int high) {
+    return Painted_polygon{piece, {at(-9, low, -8), at(9, low, -8), at(9, high, -8), at(-9, high, -8)}};
+  };
+  const Pixel_view pixels{at(0, 0, 0), {0, 0, -1}, {0.5, 0, 0}, {0, 0.5, 0}, 3, 3};
+  const std::vector<Tint> tints{{{200, 0, 0}, 0.5}, {{0, 100, 0}, 0.5}};
+  for (const Image_kernel kernel : {Image_kernel::float_numbers, Image_kernel::double_numbers, Image_kernel::exact}) {
+    const auto image = blended_painting({pane(0, -9, 0), pane(1, 0, 9)}, pixels, kernel, tints);
+    for (std::size_t x = 0; x < 3; ++x) EXPECT_EQ(image.layers[3 + x].colour, (Colour{0, 50, 0}));
+  }
+}
+
 }  // namespace

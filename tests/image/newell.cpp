@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/image/newell.h>
 #include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/families.h>
 
 #include <gtest/gtest.h>
 
@@ -283,6 +284,16 @@ TEST(Newell_kernels, in_floats_tell_no_depths_apart_that_floats_do_not) {
   EXPECT_EQ(wrong[static_cast<std::size_t>(Image_kernel::exact)], 0u);
   EXPECT_EQ(wrong[static_cast<std::size_t>(Image_kernel::double_numbers)], 0u);
   EXPECT_GT(wrong[static_cast<std::size_t>(Image_kernel::float_numbers)], 0u);
+}
+
+TEST(Newell_kernels, leave_out_faces_whose_edges_are_too_long_to_square) {
+  for (const auto& [kernel, exponent] :
+       {std::pair(Image_kernel::float_numbers, 36), std::pair(Image_kernel::double_numbers, 283)}) {
+    const Rational size = generate::power_of_two(exponent), half = size / 2;
+    const Sorted sorted({rectangle(-1, 1, -1, 1, -4), rectangle(-size, size, -half, half, -size)}, kernel);
+    EXPECT_EQ(sorted.order.edge_on, 1u);
+    EXPECT_EQ(sorted.pieces(), Pieces{0});
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -126,6 +127,8 @@ TEST_F(Files, behind_links_are_written_and_links_stay) {
   EXPECT_EQ(read_bytes(path("in/not_yet")), "first");
   EXPECT_EQ(behind_links(path("two")), path("in/a"));
 }
+
+TEST(Signals, are_put_off_only_while_a_file_is_made) { EXPECT_FALSE(put_off(SIGTERM)); }
 
 TEST_F(Files, that_cannot_be_written_are_refused_with_what_the_system_says) {
   fs::create_symlink("b", path("a"));

@@ -229,6 +229,7 @@ TEST(Read_glb, what_is_not_read_is_refused_with_its_place) {
   refused("/accessors/0/byteOffset", 18446744073709551615u, "it goes beyond");
   refused("/accessors/0/bufferView", 7, "there is no bufferViews[7]");
   refused("/accessors/0/bufferView", nullptr, "is no count or index");
+  refused("/bufferViews/0/byteLength", 8, "accessors[0]: it goes beyond");  // less than one point
   refused("/bufferViews/0/byteLength", 1000000, "beyond its buffer");
   refused("/bufferViews/0/byteOffset", 18446744073709551615u, "beyond its buffer");
   refused("/bufferViews/0/byteStride", 4, "overlap");

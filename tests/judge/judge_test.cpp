@@ -308,6 +308,11 @@ TEST(Orders, may_hold_parts_with_rounded_corners) {
   const Grade over = graded(soup, above, order(part(0, -1, 0.25, 0) + ", 1, " + part(0, 0.25, 1, 0)));
   EXPECT_EQ(over.wrong_pairs.size(), 1u);
   EXPECT_EQ(over.wrong_hidden, (Faces{1}));
+  // What is missing is 2^-20 of the face, and no more: rounding may be that.
+  std::string nearly_all = part(0, -1, 0.999998, 0);
+  for (std::size_t at; (at = nearly_all.find("0.999998,")) != std::string::npos;)
+    nearly_all.replace(at, 8, "0.99999809265136718750");
+  EXPECT_FALSE(graded(soup, above, order(nearly_all + ", 1")).wrong());
   EXPECT_EQ(graded(soup, above, order(part(0, 0.25, 0.25, 0) + ", 1")).wrong_hidden, (Faces{0}));  // without area
 }
 
@@ -467,6 +472,21 @@ TEST(Explanation, of_what_an_eye_sees_names_a_line_and_a_share_of_all_directions
   EXPECT_EQ(explained(soup, question(Question::see, {0, 0, -5}), "0\n").refutation->words, "the eye is behind face 0");
 }
 
+TEST(Explanation, counts_no_face_but_its_own_and_nothing_edge_on) {
+  Polygon_soup apart;  // both are seen
+  add_square(apart, 0, -1);
+  add_square(apart, 10, -2);
+  const Explanation own = explained(apart, question(Question::see, {0, 0, 0}), "1\n");
+  ASSERT_TRUE(own.refutation);
+  EXPECT_EQ(own.refutation->to[2], -1);
+  EXPECT_NEAR(own.share, 1.0 / 6, 1e-12);
+  Polygon_soup beside;  // the eye is in the plane of face 1
+  add_square(beside, 0, -1);
+  add_square(beside, 5, 0);
+  const Explanation edge_on = explained(beside, question(Question::see, {0, 0, 0}), "0\n1\n");
+  EXPECT_NE(edge_on.share_words.find("would fill 0 %"), std::string::npos) << edge_on.share_words;
+}
+
 TEST(Explanation, of_faces_in_one_plane_finds_the_part_that_is_anothers) {
   Polygon_soup soup;
   add_square(soup, 0, 0);
@@ -521,6 +541,8 @@ TEST(Explanation, of_weak_visibility_is_a_sightline_or_what_stands_in_the_way) {
   ASSERT_TRUE(shown.refutation);
   EXPECT_EQ(shown.refutation->by, Face_id{1});
   EXPECT_NE(shown.refutation->words.find("is proved"), std::string::npos);
+  EXPECT_EQ(explained(soup, lamp, "0\n").refutation->face, 1u);  // of what is missing, and what is shown
+  EXPECT_EQ(explained(soup, lamp, "0\n", Contract::aggressive).refutation->face, 0u);
 }
 
 // ---- Guesses

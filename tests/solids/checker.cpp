@@ -499,4 +499,21 @@ TEST(Checker, takes_holes_of_a_result_in_either_sense) {
   }
 }
 
+TEST(Checker, refuses_operands_that_name_points_which_they_do_not_have) {
+  const Polygon_soup good = tetrahedron(0);
+  std::vector<Polygon_soup> broken(1);
+  for (Point_id p = 0; p < good.point_count(); ++p) {
+    const Exact_point at = good.point(p);
+    broken[0].add_point(at[0], at[1], at[2]);
+  }
+  for (Face_id f = 0; f < good.face_count(); ++f) {
+    std::vector<Point_id> loop(good.loop(f).begin(), good.loop(f).end());
+    if (f == 2) loop[1] = 0xFFFFFFF0u;
+    broken[0].add_face(loop);
+  }
+  const Verdict found = verify_solids(broken, uncut({good}));
+  EXPECT_FALSE(found.accepted);
+  EXPECT_NE(found.why.find("names a point that it does not have"), std::string::npos) << found.why;
+}
+
 }  // namespace

@@ -623,4 +623,14 @@ TEST(Operands, close_up_over_t_junctions) {
   EXPECT_TRUE(result.crowded.empty());  // the sides got the new corners
 }
 
+TEST(Operands, that_are_closed_have_no_flaws_in_any_order_of_faces) {
+  std::vector<std::vector<Point_id>> loops{{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}};
+  do {
+    std::vector<Polygon_soup> solids(1);
+    for (const auto& [x, y, z] : {std::array{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) solids[0].add_point(x, y, z);
+    for (const std::vector<Point_id>& loop : loops) solids[0].add_face(loop);
+    EXPECT_TRUE(flaws(Operands(solids)).empty());
+  } while (std::next_permutation(loops.begin(), loops.end()));
+}
+
 }  // namespace

@@ -340,4 +340,17 @@ TEST(Along, three_skew_edges_open_at_an_irrational_moment) {
   EXPECT_TRUE(is_triple);
 }
 
+TEST(Along_certificate, has_moments_apart_however_near_they_are) {
+  // sqrt(1/2), and a root 2^-42 from it, as two faces appear and vanish.
+  const Quadratic_root one(Integer(0), 1, Integer(2), Integer(2)),
+      other(Integer(0), 1, Integer((Integer(1) << 41) + 1), Integer(Integer(1) << 21));
+  Polygon_soup soup;
+  soup.add_face({soup.add_point(0, 0, 0), soup.add_point(1, 0, 0), soup.add_point(0, 1, 0)});
+  Visible_along found;
+  found.faces.push_back({0, {Parameter_range{one, other}}, {}});
+  const Along_certificate claim = along_certificate(Scene(soup), found, {0, 0, 1}, {1, 0, 1}, false);
+  ASSERT_EQ(claim.moments.size(), 4u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(claim.moments[k].high, claim.moments[k + 1].low) << k;
+}
+
 }  // namespace

@@ -251,6 +251,7 @@ TEST(Likely_blockers, are_found_for_all_that_is_behind_a_wall_and_for_nothing_be
   const std::size_t left = static_cast<std::size_t>(fewer.size() - std::count(fewer.begin(), fewer.end(), no_blocker));
   EXPECT_LT(left, with);
   EXPECT_EQ(asked, 10u);
+  EXPECT_EQ(likely_blockers(occluders, source, [] { return false; }), likely);
   // What looks away needs none.
   Weak_source away = weak_source(occluders, reversed(rectangle(-1, 1, -1, 1, 0)));
   const std::vector<std::uint32_t> none = likely_blockers(occluders, away);

@@ -504,6 +504,13 @@ TEST(Quadratic_roots, compare_as_numbers_where_60_bits_do_not_tell) {
   }
 }
 
+TEST(Quadratic_roots, give_polynomials_their_signs) {
+  const Quadratic_root root(Integer(0), 1, Integer(2), Integer(2));  // sqrt(1/2)
+  EXPECT_EQ(root.sign_of({{Integer(-1), Integer(0), Integer(2)}}), 0);
+  EXPECT_EQ(root.sign_of({{Integer(-1), Integer(0), Integer(3)}}), 1);
+  EXPECT_EQ(root.sign_of({{Integer(-3), Integer(4), Integer(0)}}), -1);
+}
+
 TEST(Quadratic_roots, have_different_rationals_between_them) {
   const Parameter_range range{Quadratic_root(0), Quadratic_root(1)};
   std::set<Rational> found;

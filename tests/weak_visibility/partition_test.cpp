@@ -380,6 +380,17 @@ TEST(Partition, of_a_floor_under_bars_is_as_the_eye_says_from_ten_thousand_point
     EXPECT_NEAR(static_cast<double>(points) / count, share, 4 * std::sqrt(share * (1 - share) / count));
 }
 
+TEST(Partition, of_narrow_sectors_in_the_plane_of_a_wall_ends) {
+  // An upright wall whose plane goes through the middle of a sector narrower than 2^-12 of the floor.
+  const Rational x = ratio(1365, 256), s = ratio(5, 512);
+  Faces faces{parallelogram(at(0, 0, 0), at(16, 0, 0), at(0, 16, 0)),
+              {at(x, 7, 2), at(x, 9, 2), at(x, 9, 4), at(x, 7, 4)}};
+  const Points lamp = reversed(parallelogram(at(x - s, 6, 12), at(2 * s, 0, 0), at(0, 4, 0)));
+  Tally tally;
+  Random random(1);
+  expect_right(soup_of(faces), lamp, 0, 20, random, tally);
+}
+
 TEST(Partition, with_all_borders_is_the_same_in_more_cells) {
   Tally few, many;
   for (std::uint64_t seed = 0; seed < 2; ++seed) {
@@ -493,6 +504,18 @@ TEST(Real_root, equal_ones_of_different_polynomials_are_one) {
   ASSERT_EQ(roots.size(), 4u);  // -sqrt(1/2), 0, sqrt(1/2), cube root
   EXPECT_EQ(compare(roots[0], roots[1]), -1);
   EXPECT_EQ(compare(roots[3], roots[2]), 1);
+}
+
+TEST(Real_root, of_two_near_ones_only_one_is_the_others) {
+  const Integer half = Integer(1) << 39, whole = Integer(1) << 40;
+  std::vector<Real_root> near, one;  // 1/2 - 2^-40 and 1/2 + 2^-40; and the second with -3
+  append_real_roots({Integer((Integer(1) << 78) - 1), Integer(-(Integer(1) << 80)), Integer(Integer(1) << 80)}, 0, 1,
+                    near);
+  append_real_roots({Integer(-3 * (half + 1)), Integer(3 * whole - half - 1), whole}, Rational(1, 4), 1, one);
+  ASSERT_EQ(near.size(), 2u);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(compare(near[0], one[0]), -1);
+  EXPECT_EQ(compare(near[1], one[0]), 0);
 }
 
 TEST(Plane_curve, falls_apart_into_lines_over_the_rationals) {

@@ -1,0 +1,213 @@
+#pragma once
+// Given volumes, rooms say: they are taken iff they close up, are convex and overlap nowhere; and points of leaves of
+// the division are in the volumes that it says.
+
+#include "refusals.h"
+#include "support.h"
+
+#include <sightline/algorithms/levels/volumes.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace fuzz {
+
+namespace rooms {
+
+using generate::Faces;
+using generate::Points;
+using generate::Random;
+using sightline::cross;
+using sightline::dot;
+
+/// n (x - p) <= 0
+struct Half_space {
+  Exact_point normal, point;
+
+  int side(const Exact_point& x) const { return sgn(dot(normal, minus(x, point))); }
+};
+
+/// A box, a tetrahedron or a slanted prism, fronts outside; on a lattice, so that volumes touch in all ways.
+inline Faces convex_room(Random& random) {
+  const Exact_point low = generate::lattice(random, 3);
+  const auto size = [&] { return generate::integer(random, 1, 3); };
+  Faces faces;
+  switch (random.below(3)) {
+    case 0: {
+      Exact_point high = low;
+      for (Rational& x : high) x += size();
+      return generate::box(low, high);
+    }
+    case 1: {
+      std::array<Exact_point, 4> p;
+      do
+        for (Exact_point& x : p) x = generate::lattice(random, 4);
+      while (sgn(dot(cross(minus(p[1], p[0]), minus(p[2], p[0])), minus(p[3], p[0]))) == 0);
+      if (sgn(dot(cross(minus(p[1], p[0]), minus(p[2], p[0])), minus(p[3], p[0]))) > 0) std::swap(p[0], p[1]);
+      return {{p[0], p[1], p[2]}, {p[0], p[3], p[1]}, {p[1], p[3], p[2]}, {p[2], p[3], p[0]}};
+    }
+    default: {
+      const Rational dx = generate::integer(random, -2, 2), dy = generate::integer(random, -2, 2), dz = size();
+      const Rational a = size(), b = size();
+      const auto corner = [&](const Rational& x, const Rational& y, bool above) {
+        return above ? Exact_point{Rational(low[0] + x + dx), Rational(low[1] + y + dy), Rational(low[2] + dz)}
+                     : Exact_point{Rational(low[0] + x), Rational(low[1] + y), low[2]};
+      };
+      const std::array<Exact_point, 3> l{corner(0, 0, false), corner(a, 0, false), corner(0, b, false)},
+          h{corner(0, 0, true), corner(a, 0, true), corner(0, b, true)};
+      return {{l[0], l[2], l[1]},
+              {h[0], h[1], h[2]},
+              {l[0], l[1], h[1], h[0]},
+              {l[1], l[2], h[2], h[1]},
+              {l[2], l[0], h[0], h[2]}};
+    }
+  }
+}
+
+/// A box without a corner: a solid that is closed and not convex.
+inline Faces bent_room(Random& random) {
+  const Exact_point o = generate::lattice(random, 3);
+  const auto p = [&](long x, long y, long z) {
+    return Exact_point{Rational(o[0] + x), Rational(o[1] + y), Rational(o[2] + z)};
+  };
+  Faces faces{{p(0, 0, 0), p(0, 2, 0), p(1, 2, 0), p(1, 1, 0), p(2, 1, 0), p(2, 0, 0)},
+              {p(0, 0, 1), p(2, 0, 1), p(2, 1, 1), p(1, 1, 1), p(1, 2, 1), p(0, 2, 1)}};
+  const Points around = faces[1];
+  for (std::size_t k = 0; k < around.size(); ++k) {
+    Exact_point a = around[k], b = around[(k + 1) % around.size()];
+    Points side{b, a};
+    a[2] -= 1;
+    b[2] -= 1;
+    side.push_back(a);
+    side.push_back(b);
+    faces.push_back(side);
+  }
+  return faces;
+}
+
+inline std::vector<Half_space> half_spaces_of(const Faces& faces) {
+  std::vector<Half_space> all;
+  for (const Points& face : faces) all.push_back({cross(minus(face[1], face[0]), minus(face[2], face[0])), face[0]});
+  return all;
+}
+
+/// Whether half-spaces have a point inside all: the corners of what they have in common are in no plane. By each three
+/// planes.
+inline bool have_inside(const std::vector<Half_space>& all) {
+  Points corners;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k) {
+        const Exact_point &a = all[i].normal, &b = all[j].normal, &c = all[k].normal;
+        const Rational determinant = dot(a, cross(b, c));
+        if (determinant == 0) continue;
+        const Rational da = dot(a, all[i].point), db = dot(b, all[j].point), dc = dot(c, all[k].point);
+        const Exact_point bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
+        Exact_point p;
+        for (std::size_t x = 0; x < 3; ++x) p[x] = (da * bc[x] + db * ca[x] + dc * ab[x]) / determinant;
+        if (std::all_of(all.begin(), all.end(), [&](const Half_space& h) { return h.side(p) <= 0; }))
+          corners.push_back(p);
+      }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (std::size_t i = 1; i < corners.size(); ++i)
+    for (std::size_t j = 1; j < i; ++j)
+      for (std::size_t k = 1; k < j; ++k)
+        if (sgn(dot(cross(minus(corners[i], corners[0]), minus(corners[j], corners[0])),
+                    minus(corners[k], corners[0]))) != 0)
+          return true;
+  return false;
+}
+
+}  // namespace rooms
+
+inline void volumes(std::string_view bytes) {
+  using namespace rooms;
+  Random random(Bytes(bytes).word());
+
+  // 1. Volumes, and whether they may be taken.
+  std::vector<Faces> drawn;
+  std::vector<std::vector<Half_space>> insides;
+  bool right = true;
+  for (std::uint64_t count = 1 + random.below(4); count > 0; --count) {
+    drawn.push_back(random.chance(1, 12) ? bent_room(random) : convex_room(random));
+    insides.push_back(half_spaces_of(drawn.back()));
+    const bool is_convex = std::all_of(insides.back().begin(), insides.back().end(), [&](const Half_space& h) {
+      return std::all_of(drawn.back().begin(), drawn.back().end(), [&](const Points& face) {
+        return std::all_of(face.begin(), face.end(), [&](const Exact_point& p) { return h.side(p) <= 0; });
+      });
+    });
+    right = right && is_convex;
+    if (!is_convex) continue;
+    for (std::size_t k = 0; k + 1 < insides.size(); ++k) {
+      std::vector<Half_space> both = insides[k];
+      both.insert(both.end(), insides.back().begin(), insides.back().end());
+      right = right && !have_inside(both);
+    }
+  }
+  if (random.chance(1, 10)) {  // a face less, or turned round
+    Faces& some = drawn[random.below(drawn.size())];
+    Points& face = some[random.below(some.size())];
+    if (random.chance(1, 2)) face = generate::reversed(face);
+    else some.erase(some.begin() + (&face - some.data()));
+    right = false;
+  }
+
+  // 2. Each with points of its own, looking inwards at times; faces in any order.
+  Polygon_soup soup;
+  std::vector<std::pair<std::size_t, Points>> faces;
+  for (std::size_t v = 0; v < drawn.size(); ++v) {
+    const bool inwards = random.chance(1, 3);
+    for (const Points& face : drawn[v]) faces.emplace_back(v, inwards ? generate::reversed(face) : face);
+  }
+  random.shuffle(faces);
+  std::vector<std::map<Exact_point, Point_id>> ids(drawn.size());
+  std::vector<std::size_t> order;  // of volumes by their first faces
+  for (const auto& [v, face] : faces) {
+    if (std::find(order.begin(), order.end(), v) == order.end()) order.push_back(v);
+    std::vector<Point_id> loop;
+    for (const Exact_point& p : face) {
+      const auto [at, is_new] = ids[v].try_emplace(p, static_cast<Point_id>(soup.point_count()));
+      if (is_new)
+        for (const Rational& x : p) soup.coordinates.push(x);
+      loop.push_back(at->second);
+    }
+    soup.add_face(loop);
+  }
+
+  // 3. What is said of them.
+  Volume_division division;
+  const bool refused = is_refused<std::invalid_argument>([&] { division = convex_volumes(soup); });
+  require(refused != right, "volumes are refused iff one is open or not convex, or two overlap");
+  if (refused) return;
+  require(division.volumes == drawn.size(), "each volume is one");
+  for (int k = 0; k < 20; ++k) {
+    Exact_point p = generate::lattice(random, 40);
+    for (Rational& x : p) x /= 7;
+    std::int32_t at = division.tree.root;
+    for (int side = 1; at >= 0 && side != 0;) {
+      const auto& node = division.tree.nodes[static_cast<std::size_t>(at)];
+      side = sgn(Rational(node.plane[0] * p[0] + node.plane[1] * p[1] + node.plane[2] * p[2] + node.plane[3]));
+      if (side != 0) at = node.children[side > 0 ? 0 : 1];
+    }
+    if (at >= 0) continue;  // in the plane of a node
+    std::size_t leaf = drawn.size();
+    for (std::size_t n = 0; n < order.size(); ++n)
+      if (std::all_of(insides[order[n]].begin(), insides[order[n]].end(),
+                      [&](const Half_space& h) { return h.side(p) < 0; }))
+        leaf = n;
+    require(static_cast<std::size_t>(-1 - at) == leaf, "a point's leaf is the volume that it is in");
+  }
+}
+
+}  // namespace fuzz
