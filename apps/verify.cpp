@@ -14,8 +14,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <numeric>
 #include <random>
+#include <set>
 
 namespace sightline::app {
 
@@ -58,12 +60,23 @@ struct Cell_entry {
   Cell_statement statement;
 };
 
+static std::uint64_t whole_number_in(const nlohmann::json& value, std::uint64_t most, const char* what) {
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most)
+    throw std::invalid_argument(fmt::format("{} is no whole number up to {}", what, most));
+  return value.get<std::uint64_t>();
+}
+
 static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::path& folder, bool has_certificate) {
   Cell_entry entry;
-  entry.cell = json.at("cell").get<std::uint64_t>();
+  entry.cell = whole_number_in(json.at("cell"), std::numeric_limits<std::uint64_t>::max(), "\"cell\"");
   if (has_certificate) {
-    entry.file = (folder / json.at("certificate").get<std::string>()).string();
-    entry.statement.within = json.at("within").get<std::vector<Face_id>>();
+    const std::filesystem::path name = json.at("certificate").get<std::string>();
+    if (name.empty() || name != name.filename() || name == "." || name == "..")
+      throw std::invalid_argument("its certificate is no file of this folder");
+    entry.file = (folder / name).string();
+    for (const nlohmann::json& face : json.at("within"))
+      entry.statement.within.push_back(
+          static_cast<Face_id>(whole_number_in(face, std::numeric_limits<Face_id>::max(), "a face of \"within\"")));
   }
   std::vector<Exact_point> corners;
   for (const nlohmann::json& corner : json.at("corners")) {
@@ -112,8 +125,23 @@ static Cell_index cells_in(const std::filesystem::path& folder) {
   };
   read("cells", index.cells);
   read("rest", index.rest);
+  std::set<std::uint64_t> numbers;
+  std::set<std::string> files;
+  for (const std::vector<Cell_entry>* cells : {&index.cells, &index.rest})
+    for (const Cell_entry& entry : *cells) {
+      if (!numbers.insert(entry.cell).second) refuse(fmt::format("has cell {} twice", entry.cell));
+      if (!entry.file.empty() && !files.insert(entry.file).second)
+        refuse(fmt::format("names the certificate of cell {} twice", entry.cell));
+    }
   if (index.cells.empty()) refuse("names no cells");
   return index;
+}
+
+/// How many faces a cell's certificate and its statement show to be visible from it.
+static std::size_t faces_shown_by(const Weak_certificate& claim, const Cell_statement& statement) {
+  std::set<Face_id> shown(statement.within.begin(), statement.within.end());
+  for (const Weak_certificate::Sightline& line : claim.visible) shown.insert(claim.fragments[line.fragment].face);
+  return shown.size();
 }
 
 /// All cells of a folder with their certificates, or so many of them, drawn at random; and that its cells fill a level.
@@ -138,8 +166,9 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
 
   // 1. Cell by cell.
   std::vector<Cell_of_level> level;
+  std::size_t visible = 0, undecided = 0;  // faces, summed over cells
   Level_cell_checker checker(soup, options);
-  for (const Cell_entry& entry : cells) level.push_back({entry.cell, entry.statement.walls, true, {}});
+  for (const Cell_entry& entry : cells) level.push_back({entry.cell, entry.statement.walls, true, {}, {}});
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     progress(i, chosen.size());
     if (limit.is_over()) throw Out_of_budget(fmt::format("the budget ran out after {} of {} cells", i, chosen.size()));
@@ -148,13 +177,21 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
     const Weak_certificate* const claim = std::get_if<Weak_certificate>(&certificate);
     if (claim == nullptr)
       throw Input_error::of_file(entry.file, "is no certificate of weak visibility; write the folder again");
-    const Verdict verdict = checker.check(entry.statement, *claim);
-    if (!verdict.accepted) rejected.push_back({{"cell", entry.cell}, {"file", entry.file}, {"why", verdict.why}});
-    else level[chosen[i]].sources = claim->sources;
+    Verdict verdict;
+    if (claim->two_sided) verdict.why = "backs count as visible, which is not what cells are asked";
+    else verdict = checker.check(entry.statement, *claim);
+    if (!verdict.accepted) {
+      rejected.push_back({{"cell", entry.cell}, {"file", entry.file}, {"why", verdict.why}});
+      continue;
+    }
+    level[chosen[i]].sources = claim->sources;
+    level[chosen[i]].open_walls = checker.open_walls();
+    visible += faces_shown_by(*claim, entry.statement);
+    undecided += claim->undecided.size();
   }
 
   // 2. All together.
-  for (Cell_entry& entry : index.rest) level.push_back({entry.cell, std::move(entry.statement.walls), false, {}});
+  for (Cell_entry& entry : index.rest) level.push_back({entry.cell, std::move(entry.statement.walls), false, {}, {}});
   const Verdict filled = verify_level_fill(soup, level, options);
   if (!filled.accepted) rejected.push_back({{"file", folder + "/index.json"}, {"why", filled.why}});
 
@@ -166,6 +203,7 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
   if (filled.accepted)
     what += fmt::format("; with {} others they fill a box about the scene, and no way leads to these{}",
                         index.rest.size(), chosen.size() < cells.size() ? " from those checked" : "");
+  what += fmt::format("; {} faces seen in all, {} undecided", visible, undecided);
   if (!common.json.empty()) {
     const Json result{{"accepted", rejected.empty()}, {"why", what}, {"rejected", rejected}};
     if (write_json(common, "verify", Scene(soup), result, {{"certificates", chosen.size()}}, {{"verify", seconds}}))
@@ -187,13 +225,47 @@ struct Solid_files {
   std::string result;
 };
 
-/// Whether a file begins as `boolean --certificate` writes it: of one solid there is no other to tell.
-static bool begins_as_of_solids(const std::string& file) {
+/// Looks for "format" at the top level of JSON, and ends there.
+class Format_finder : public nlohmann::json::json_sax_t {
+ public:
+  std::string format;
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool string(string_t& text) override {
+    if (is_next_ && depth_ == 1) format = text;
+    return !is_next_;
+  }
+  bool start_object(std::size_t) override { return go(1); }
+  bool start_array(std::size_t) override { return go(1); }
+  bool end_object() override { return go(-1); }
+  bool end_array() override { return go(-1); }
+  bool key(string_t& name) override {
+    is_next_ = depth_ == 1 && name == "format";
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) override { return false; }
+
+ private:
+  bool go(int by) {
+    depth_ += by;
+    return !is_next_;
+  }
+  int depth_ = 0;
+  bool is_next_ = false;
+};
+
+/// Whether a file is what `boolean --certificate` writes: of one solid there is no other to tell.
+static bool is_of_solids(const std::string& file) {
   if (file == "-") return false;  // can be read but once
-  std::string beginning(200, '\0');
   std::ifstream in = open_bytes(input_path(file));
-  in.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  return beginning.find("\"sightline boolean") != std::string::npos;
+  Format_finder finder;
+  nlohmann::json::sax_parse(in, &finder);
+  return finder.format.starts_with("sightline boolean");
 }
 
 static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common, const std::string& file,
@@ -220,7 +292,7 @@ static Exit run(const Common& common, const std::string& file, const Solid_files
   if (std::filesystem::is_directory(file)) return run_folder(common, file, sample);
   if (sample > 0) throw Usage_error("--sample is for a folder of certificates; this is a file");
   const Polygon_soup soup = common.read();
-  const bool of_solids = !files.others.empty() || !files.result.empty() || begins_as_of_solids(file);
+  const bool of_solids = !files.others.empty() || !files.result.empty() || is_of_solids(file);
   const Certificate certificate = of_solids ? Certificate() : certificate_of(file);
   const Stopwatch watch;
   Progress progress("verifying");

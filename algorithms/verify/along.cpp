@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -364,12 +365,13 @@ void Face_check::check(const std::vector<Range>& claims, const std::vector<std::
   for (const std::size_t fragment : fragments)
     for (const bool from_behind : {false, true}) {
       if (from_behind && !setting_.certificate.two_sided) continue;
-      View view(setting_, fragment, from_behind);
+      std::optional<View> view;  // where there is a proof
       std::vector<bool>& places = hidden.emplace_back(count);
       for (const std::size_t k : proofs) {
         const Proof& proof = setting_.certificate.proofs[k];
         if (proof.fragment != fragment || proof.from_behind != from_behind) continue;
-        view.check(proof, name("proof", k));
+        if (!view) view.emplace(setting_, fragment, from_behind);
+        view->check(proof, name("proof", k));
         nodes += proof.tree.size() + proof.cone.size();
         mark(proof.cone.empty() ? places : seen, proof.range);
       }

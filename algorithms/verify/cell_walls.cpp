@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace sightline::level_check {
@@ -39,14 +40,15 @@ std::vector<Outline> outlines_of_walls(const std::vector<Polygon>& walls) {
   }
   if (const std::optional<Exact_point> open = boundary.nonzero())
     reject("its walls do not close up at " + exact_name(*open));
+  // Sides may be in many walls, which have planes and corners in common.
+  std::set<Homogeneous> all, planes;
+  for (const Outline& outline : outlines) all.insert(outline.corners.begin(), outline.corners.end());
+  const weak_check::Corners corners(all.begin(), all.end());
   for (std::size_t w = 0; w < outlines.size(); ++w) {
-    bool has_inside = false;
-    for (const Outline& other : outlines) {
-      if (reaches(outlines[w].plane, other.corners, 1))
-        reject("it is not convex: a corner is outside of " + name("wall", w));
-      has_inside = has_inside || reaches(outlines[w].plane, other.corners, -1);
-    }
-    if (!has_inside) reject("it has no inside: all corners are in the plane of " + name("wall", w));
+    if (!planes.insert(outlines[w].plane).second) continue;
+    if (reaches(outlines[w].plane, corners, 1)) reject("it is not convex: a corner is outside of " + name("wall", w));
+    if (!reaches(outlines[w].plane, corners, -1))
+      reject("it has no inside: all corners are in the plane of " + name("wall", w));
   }
   return outlines;
 }

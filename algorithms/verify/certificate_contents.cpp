@@ -215,14 +215,19 @@ Exact_point& Contents::at(const Place& place) {
 }
 
 /// Few numbers must not become much memory: of large points that are named often.
+bool Contents::count(const Exact_point& point) {
+  constexpr std::size_t bytes_of_fraction = 64;  // beside its digits
+  for (const Rational& x : point)
+    written_out_ += (bit_length(x.get_num()) + bit_length(x.get_den())) / 8 + bytes_of_fraction;
+  return written_out_ <= std::max(std::size_t{1} << 28, 64 * read_);
+}
+void Contents::fail_as_too_much(const Table& table, const std::string& at) {
+  fail(at, std::string("points of \"") + table.key +
+               "\" are named so often that they take more than 64 times the file, and 256 MiB; write them out");
+}
 void Contents::put(const Table& table, std::uint32_t number, Exact_point& there, const Place& place) {
-  const Exact_point& point = table.points[number];
-  for (const Rational& x : point) written_out_ += (bit_length(x.get_num()) + bit_length(x.get_den())) / 8 + 16;
-  if (written_out_ > std::max(std::size_t{1} << 28, 64 * read_))
-    fail(name_of(place), std::string("points of \"") + table.key +
-                             "\" are named so often that they take more than 64 times the file, and 256 MiB; write "
-                             "them out");
-  there = point;
+  if (!count(table.points[number])) fail_as_too_much(table, name_of(place));
+  there = table.points[number];
 }
 void Contents::put_late(Table& table) {
   for (const auto& [number, place] : table.late) {
@@ -383,14 +388,16 @@ void Contents::check_graph() const {
   }
 }
 
-void Contents::check_parts() const {
+void Contents::check_parts() {
   for (std::size_t k = 0; k < visible_.parts.size(); ++k) {
     const Visible_certificate::Part& part = visible_.parts[k];
     if (part.fragment >= covering_.fragments.size())
       check_below(part.fragment, covering_.fragments.size(), entry_name("parts", k) + ".fragment");
-    for (std::size_t i = 0; i < part.rays.size(); ++i)
+    for (std::size_t i = 0; i < part.rays.size(); ++i) {
       if (part.rays[i] >= rays_.points.size())
         rays_.check(part.rays[i], entry_name(entry_name("parts", k) + ".rays", i));
+      if (!count(rays_.points[part.rays[i]])) fail_as_too_much(rays_, entry_name(entry_name("parts", k) + ".rays", i));
+    }
   }
 }
 

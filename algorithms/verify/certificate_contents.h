@@ -76,10 +76,13 @@ class Contents {
   void take_hidden(const nlohmann::json& entry, const At& at);
   void take_proof(const nlohmann::json& entry, const At& at);
   Exact_point& at(const Place& place);
+  /// Counts a point as written out; false: that is too much.
+  bool count(const Exact_point& point);
+  [[noreturn]] static void fail_as_too_much(const Table& table, const std::string& at);
   void put(const Table& table, std::uint32_t number, Exact_point& there, const Place& place);
   void put_late(Table& table);
   void check_graph() const;
-  void check_parts() const;
+  void check_parts();
   void check_weak() const;
   void check_along() const;
 

@@ -146,6 +146,7 @@ class Events {
  private:
   /// Lists in lists, and objects, within an entry: one more than there are in "hidden".
   static constexpr std::size_t deepest = 8;
+  static constexpr std::size_t most_said = 100;  // bytes of a key
 
   bool value(Json scalar);
   bool open(Json empty);
@@ -194,7 +195,12 @@ Json* Events::add(Json value) {
   }
   Json& into = *open_.back();
   if (into.is_array()) return &into.emplace_back(std::move(value));
-  return &(into[member_] = std::move(value));
+  const auto [at, is_new] = into.emplace(member_, std::move(value));
+  if (!is_new)
+    throw Certificate_error(text_.line(), text_.column(),
+                            (in_list_ ? entry_name(keys_.back().first, number_) : keys_.back().first) + ": the key \"" +
+                                printable(member_, most_said, true) + "\" is there twice");
+  return &*at;
 }
 
 bool Events::value(Json scalar) {

@@ -84,16 +84,20 @@ Contour seen_from_front(const std::vector<Polygon>& loops, const Plane& plane) {
 }
 
 bool Contour::crosses_itself() const {
-  // Edges cross in a point of both, so that their boxes meet.
+  // Edges cross in a point of both, so that their boxes meet. What is walked often, there or back, is one.
+  std::set<std::pair<Point, Point>> segments;
+  for (const Edge& e : edges) segments.emplace(std::min(e.from, e.to), std::max(e.from, e.to));
+  std::vector<Edge> once;
+  for (const auto& [from, to] : segments) once.push_back({from, to});
   std::vector<Outward_box> boxes;
-  boxes.reserve(edges.size());
-  for (const Edge& e : edges)
+  boxes.reserve(once.size());
+  for (const Edge& e : once)
     boxes.emplace_back(Polygon{{e.from[0], e.from[1], Rational(0)}, {e.to[0], e.to[1], Rational(0)}});
   const Boxes tree(boxes);
   bool found = false;
   for (std::size_t leaf = 0; leaf < tree.leaves() && !found; ++leaf)
     tree.for_each_pair(leaf, [&](std::size_t i, std::size_t j) {
-      const Edge &e = edges[i], &f = edges[j];
+      const Edge &e = once[i], &f = once[j];
       found = found || (cross_inside(e, f) && !points.count(crossing(e, f)));
     });
   return found;

@@ -78,6 +78,13 @@ void check_tiling(const std::string& what, const std::vector<Polygon>& loops, co
     reject(what + " is not tiled by its parts: boundaries do not cancel near " + name(*point));
   const bool winds_once = loops.size() == 1 && not_convex(each_of(points.in_integers, corners[0]), front).empty();
   if (winds_once) return;
+  // Boundaries cancel, so that a point is in as many tiles as the loops wind round it. Many tiles are not looked at in
+  // pairs, unless to name two of them.
+  const Contour contour = seen_from_front(loops, plane);
+  if (tiles.size() > contour.edges.size()) {
+    if (contour.crosses_itself()) reject(what + " crosses itself and is not set aside");
+    if (contour.winding() == Contour::Winding::once) return;
+  }
   Exact_point eye = plane.origin;
   for (std::size_t k = 0; k < 3; ++k) eye[k] += plane.normal[k];
   std::vector<Cone> cones;
@@ -89,7 +96,7 @@ void check_tiling(const std::string& what, const std::vector<Polygon>& loops, co
         both.insert(both.end(), tiles[j].fragments.begin(), tiles[j].fragments.end());
         reject(tiles[i].name + " and " + tiles[j].name + " of " + what + " overlap", both);
       }
-  if (seen_from_front(loops, plane).crosses_itself())  // what a spike crosses does not show in the chain
+  if (contour.crosses_itself())  // what a spike crosses does not show in the chain
     reject(what + " crosses itself and is not set aside");
 }
 

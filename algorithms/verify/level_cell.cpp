@@ -89,9 +89,10 @@ void check_sources(const std::vector<Outline>& walls, const std::vector<Outline>
 }
 
 /// (4), (5) Rejects unless sources and fragments cover all walls, but for those beyond which there is nothing to see.
-/// Returns the faces that look into the cell.
+/// Returns the faces that look into the cell; adds to `open_walls` those that are not covered.
 std::set<Face_id> check_walls(const std::vector<Outline>& walls, const std::vector<Outline>& sources,
-                              const std::vector<Order_fragment>& fragments, const std::vector<Outline>& outlines) {
+                              const std::vector<Order_fragment>& fragments, const std::vector<Outline>& outlines,
+                              std::vector<std::size_t>& open_walls) {
   std::set<Face_id> looking_in;
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const std::vector<Homogeneous> edges = edge_planes(walls[w]);
@@ -103,10 +104,14 @@ std::set<Face_id> check_walls(const std::vector<Outline>& walls, const std::vect
       if (!alike(outlines[i].plane, walls[w].plane)) looking_in.insert(fragments[i].face);
       take_away(open, outlines[i]);
     }
+    if (open.empty()) continue;
     const bool ends_scene = std::none_of(outlines.begin(), outlines.end(), [&](const Outline& outline) {
       return reaches(walls[w].plane, outline.corners, 1);
     });
-    if (open.empty() || ends_scene) continue;
+    if (ends_scene) {
+      open_walls.push_back(w);
+      continue;
+    }
     Exact_point corner;
     for (std::size_t k = 0; k < 3; ++k) {
       corner[k] = Rational(open[0][0][k], open[0][0][3]);
@@ -118,18 +123,21 @@ std::set<Face_id> check_walls(const std::vector<Outline>& walls, const std::vect
 }
 
 std::string check_cell(const Polygon_soup& soup, const Cell_statement& cell, const Weak_certificate& certificate,
-                       const weak_check::Known_scene& scene, const Verify_options& options) {
+                       const weak_check::Known_scene& scene, const Verify_options& options,
+                       std::vector<std::size_t>& open_walls) {
+  // 1. The walls are those of a cell: soon seen, so that nothing else is asked where they are not.
+  const std::vector<Outline> walls = outlines_of_walls(cell.walls);
+
   // 0. The certificate is right.
   if (!certificate.sources.empty()) weak_check::check(soup, certificate, scene, options);
   const std::vector<Outline>& fragments = scene.outlines();
   std::vector<Outline> sources;
   for (const Polygon& source : certificate.sources) sources.emplace_back(source);
 
-  // 1. to 4. The cell is one, and its portals are the sources.
-  const std::vector<Outline> walls = outlines_of_walls(cell.walls);
+  // 2. to 4. Nothing is inside, and its portals are the sources.
   check_inside(walls, certificate.fragments, fragments);
   check_sources(walls, sources, certificate.fragments, fragments);
-  const std::set<Face_id> looking_in = check_walls(walls, sources, certificate.fragments, fragments);
+  const std::set<Face_id> looking_in = check_walls(walls, sources, certificate.fragments, fragments, open_walls);
 
   // 5. What looks into it is what is said to.
   const std::set<Face_id> said(cell.within.begin(), cell.within.end());
@@ -162,7 +170,8 @@ Verdict Level_cell_checker::check(const Cell_statement& cell, const Weak_certifi
       scene_.reset();
       scene_ = std::make_unique<const weak_check::Known_scene>(soup_, certificate, workers);
     }
-    return level_check::check_cell(soup_, cell, certificate, *scene_, options_);
+    open_walls_.clear();
+    return level_check::check_cell(soup_, cell, certificate, *scene_, options_, open_walls_);
   });
 }
 

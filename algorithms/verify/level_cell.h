@@ -6,6 +6,7 @@
 #include <sightline/algorithms/verify/weak.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -42,11 +43,15 @@ class Level_cell_checker {
   ~Level_cell_checker();
 
   Verdict check(const Cell_statement& cell, const Weak_certificate& certificate);
+  /// Of the cell that was accepted last the walls of which sources and faces leave some uncovered, as no fragment is
+  /// beyond: a way for who walks, though not for who looks.
+  const std::vector<std::size_t>& open_walls() const { return open_walls_; }
 
  private:
   const Polygon_soup& soup_;
   Verify_options options_;
   std::unique_ptr<const weak_check::Known_scene> scene_;
+  std::vector<std::size_t> open_walls_;
 };
 
 }  // namespace sightline

@@ -128,11 +128,19 @@ std::string check_fill(const Polygon_soup& soup, const std::vector<Cell_of_level
       for (const Point_id p : soup.loop(f, l))
         if (!box.holds(soup.point(p))) reject(name("face", f) + " has a corner that no cell is about");
 
-  // 5. Who walks through sources stays in cells that have certificates.
+  // 5. Who walks through sources, and where no face is in the way, stays in cells that have certificates.
   std::size_t certified = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     ask();
     certified += cells[c].has_certificate;
+    for (const std::size_t w : cells[c].open_walls) {
+      if (w >= outlines[c].size()) reject(cell_name(cells[c]) + " has no " + name("wall", w));
+      const std::size_t other = neighbours[c][w];
+      if (other == the_end || cells[other].has_certificate) continue;
+      reject(cell_name(cells[c]) + ": some of " + name("wall", w) +
+             " is covered by no source and no face, and beyond is " + cell_name(cells[other]) +
+             ", which has no certificate");
+    }
     for (std::size_t s = 0; s < cells[c].sources.size(); ++s) {
       const Outline source(cells[c].sources[s]);
       for (std::size_t w = 0; w < outlines[c].size(); ++w) {

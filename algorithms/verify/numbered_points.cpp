@@ -1,8 +1,10 @@
 #include <sightline/algorithms/verify/numbered_points.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
+#include <random>
 #include <span>
 #include <utility>
 
@@ -15,13 +17,26 @@ constexpr Numbered_points::Number empty = std::numeric_limits<Numbered_points::N
 std::size_t hash_of(const Exact_point& p) {
   std::size_t hash = 0;
   for (const Rational& x : p)
-    for (const mpz_srcptr part : {x.get_num_mpz_t(), x.get_den_mpz_t()})
-      for (std::size_t k = 0; k < mpz_size(part); ++k)
-        hash = (hash ^ hash >> 29 ^ mpz_getlimbn(part, static_cast<mp_size_t>(k))) * 0x9e3779b97f4a7c15;
-  return hash ^ hash >> 32;
+    for (const mpz_srcptr part : {x.get_num_mpz_t(), x.get_den_mpz_t()}) hash = mixed_digits(hash, part);
+  return hash;
 }
 
 }  // namespace
+
+std::size_t mixed_digits(std::size_t hash, mpz_srcptr n) {
+  static const std::array<std::uint64_t, 2> secret = [] {
+    std::random_device random;
+    std::array<std::uint64_t, 2> words;
+    for (std::uint64_t& word : words) word = std::uint64_t{random()} << 32 | random();
+    return words;
+  }();
+  for (std::size_t k = 0; k < mpz_size(n); ++k) {
+    const unsigned __int128 product =
+        static_cast<unsigned __int128>(hash ^ secret[0]) * (mpz_getlimbn(n, static_cast<mp_size_t>(k)) ^ secret[1]);
+    hash = static_cast<std::size_t>(product) ^ static_cast<std::size_t>(product >> 64);
+  }
+  return hash;
+}
 
 std::size_t Numbered_points::place_of(const Exact_point& p, std::size_t hash) const {
   const std::size_t last = table_.size() - 1;

@@ -16,6 +16,10 @@
 
 namespace sightline::certificate_check {
 
+/// A hash with a number's digits, not its sign. Another one in each process: nobody makes up numbers that have the
+/// same.
+std::size_t mixed_digits(std::size_t hash, mpz_srcptr n);
+
 /// Different points, numbered as they come. Points are the same if their numbers are, digit by digit.
 class Numbered_points {
  public:

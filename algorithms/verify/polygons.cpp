@@ -58,6 +58,22 @@ Integer_vector primitive(const Exact_point& v) {
   return primitive(Integer_vector{h[0], h[1], h[2]});
 }
 
+namespace {
+
+/// The sum of the triangles of corner 0 with edges from `first` to `last`, half by half: denominators become long once,
+/// and not with each that is added.
+Exact_point sum_of_fractions(const Polygon& loop, std::size_t first, std::size_t last) {
+  if (last <= first) return {};
+  if (last == first + 1) return cross(minus(loop[first], loop[0]), minus(loop[last], loop[0]));
+  const std::size_t middle = first + (last - first) / 2;
+  Exact_point sum = sum_of_fractions(loop, first, middle);
+  const Exact_point other = sum_of_fractions(loop, middle, last);
+  for (std::size_t k = 0; k < 3; ++k) sum[k] += other[k];
+  return sum;
+}
+
+}  // namespace
+
 Integer_vector newell_normal(const Polygon& loop) {
   if (loop.size() < 3) return {};
   // Over one denominator, unless that would become much longer than those of the points.
@@ -76,7 +92,7 @@ Integer_vector newell_normal(const Polygon& loop) {
     }
     return primitive(sum);
   };
-  if (bit_length(scale) > most_bits) return sum_of_parts([&](std::size_t i) { return minus(loop[i], loop[0]); });
+  if (bit_length(scale) > most_bits) return primitive(sum_of_fractions(loop, 1, loop.size() - 1));
   const auto scaled = [&](const Rational& x) {
     return x.get_den() == scale ? x.get_num() : Integer(x.get_num() * (scale / x.get_den()));
   };

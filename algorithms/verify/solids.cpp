@@ -100,8 +100,9 @@ class Solid_check {
     if (options_.progress) options_.progress(faces_.size(), faces_.size());
     std::size_t kept = 0;
     for (const auto& fragment : claim_.fragments) kept += fragment.fate != Solid_certificate::Fate::dropped;
-    return claim_.operation + " of " + std::to_string(operands_.size()) + " solids: " + std::to_string(kept) + " of " +
-           std::to_string(faces_.size()) + " fragments bound it" + (result == nullptr ? "" : ", and are the result");
+    return claim_.operation + " of " + std::to_string(operands_.size()) + " solids (inside: " + claim_.inside +
+           "): " + std::to_string(kept) + " of " + std::to_string(faces_.size()) + " fragments bound it" +
+           (result == nullptr ? "" : ", and are the result");
   }
 
  private:
@@ -253,10 +254,7 @@ class Solid_check {
     std::uint32_t count = 0;
     for (Solid_face& face : faces_) {
       std::size_t digits = 0;
-      for (const Integer& n : face.plane)
-        for (std::size_t k = 0; k < mpz_size(n.get_mpz_t()); ++k)
-          digits =
-              (digits ^ digits >> 29 ^ mpz_getlimbn(n.get_mpz_t(), static_cast<mp_size_t>(k))) * 0x9e3779b97f4a7c15;
+      for (const Integer& n : face.plane) digits = mixed_digits(digits, n.get_mpz_t());
       const auto [begin, end] = known.equal_range(digits);
       const auto same =
           std::find_if(begin, end, [&](const auto& entry) { return is_in_plane_of(face, *entry.second); });

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -28,6 +29,8 @@ namespace {
 constexpr std::size_t most_products = 10'000'000;
 /// The same for cuts that are below one another: each gives a cell a corner more at most.
 constexpr std::size_t most_cuts = 1000;
+/// From so many pairs of corners on it asks whether to go on before each edge of what blocks them.
+constexpr std::size_t pairs_worth_asking = 1000;
 
 // ---- Visible
 
@@ -117,7 +120,7 @@ class Trees {
   void check(std::size_t k, const std::function<void()>& step);
 
  private:
-  void check_for(std::size_t fragment, const std::vector<Node>& proof, const std::function<void()>& step);
+  void check_for(std::size_t fragment, const std::vector<Node>& proof);
   std::string entry() const {
     return name("hidden", entry_) + " (" + name("face", certificate_.fragments[fragment_].face) + ")";
   }
@@ -169,16 +172,22 @@ class Trees {
   std::vector<std::vector<Lines::Named>> edges_;    // of fragments that block, when they first do
   std::vector<int> path_;                           // signs of numbered lines
   std::vector<std::pair<std::size_t, int>> trail_;  // lines decided, and what was there before
+  const std::function<void()>* step_ = nullptr;     // to be called now and then
   std::size_t entry_ = 0, node_ = 0, source_ = 0, fragment_ = 0, leaves_ = 0;
 };
 
 Trees::Trees(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
              const std::vector<Outline>& sources)
     : certificate_(certificate), fragments_(fragments), sources_(sources), edges_(fragments.size()) {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // by edge, the first of its lines
   for (std::size_t k = 0; k < certificate.lines.size(); ++k) {
     const auto& [fragment, corner] = certificate.lines[k];
     if (fragment >= fragments.size() || corner >= certificate.fragments[fragment].vertices.size())
       reject(name("line", k) + " names an edge that there is not");
+    if (const auto [at, is_new] = known.try_emplace({fragment, corner}, k); !is_new) {
+      named_.push_back(named_[at->second]);
+      continue;
+    }
     const Polygon& polygon = certificate.fragments[fragment].vertices;
     named_.push_back(lines_.through(homogeneous(polygon[corner]), homogeneous(polygon[(corner + 1) % polygon.size()])));
   }
@@ -189,12 +198,13 @@ void Trees::check(std::size_t k, const std::function<void()>& step) {
   const Weak_certificate::Hidden& hidden = certificate_.hidden[k];
   entry_ = k;
   source_ = hidden.source;
+  step_ = &step;
   if (!hidden.also.empty() && hidden.proof.size() != 1)
     reject(name("hidden", k) + " is of several fragments, but its proof is not one leaf");
-  hidden.for_each_fragment([&](std::size_t fragment) { check_for(fragment, hidden.proof, step); });
+  hidden.for_each_fragment([&](std::size_t fragment) { check_for(fragment, hidden.proof); });
 }
 
-void Trees::check_for(std::size_t fragment, const std::vector<Node>& proof, const std::function<void()>& step) {
+void Trees::check_for(std::size_t fragment, const std::vector<Node>& proof) {
   if (fragment >= fragments_.size())
     reject(name("hidden", entry_) + " names fragment " + std::to_string(fragment) + ", which there is not");
   fragment_ = fragment;
@@ -213,7 +223,7 @@ void Trees::check_for(std::size_t fragment, const std::vector<Node>& proof, cons
                                        std::make_shared<const Corners>(fragments_[fragment].corners), 0);
   for (std::size_t i = 0;; ++i) {
     if (i == proof.size()) reject(entry() + " ends before each of its cells has a leaf", {fragment});
-    if (i % 1024 == 0) step();
+    if (i % 1024 == 0) (*step_)();
     const Node& node = proof[i];
     node_ = i;
     const bool has_inside = !cell->source->empty() && !cell->target->empty();
@@ -302,6 +312,7 @@ void Trees::check_blocked(Cell& cell, std::size_t f) {
   for (const auto& [line, scale] : edges) {
     const int inwards = front * sgn(scale);
     if (decided(line) == inwards) continue;
+    if (cell.source->size() * cell.target->size() > pairs_worth_asking) (*step_)();
     const Cell::Signs signs = signs_of(cell, line);
     if (inwards > 0 ? signs.negative : signs.positive)
       refuse("is not blocked by " + name("fragment", f) + ": lines may pass an edge of it outside");
@@ -418,16 +429,17 @@ std::string check_faces(const Weak_certificate& certificate, const Faces& visibl
     if (undecided[f]++) reject(name("face", f) + " is undecided twice");
     if (visible[f]) reject(name("face", f) + " is undecided, but shown to be visible");
   }
-  for (std::size_t i = 0; i < certificate.fragments.size(); ++i)
-    for (std::size_t s = 0; s < certificate.sources.size(); ++s) {
-      const Face_id f = certificate.fragments[i].face;
-      if (visible[f] || hidden.count({i, s})) continue;
+  for (std::size_t i = 0; i < certificate.fragments.size(); ++i) {
+    const Face_id f = certificate.fragments[i].face;
+    for (std::size_t s = 0; s < certificate.sources.size() && !visible[f] && !open[f]; ++s) {
+      if (hidden.count({i, s})) continue;
       if (!undecided[f])
         reject(name("face", f) + " is neither visible nor undecided, and " + name("fragment", i) +
                    " of it is not shown to be hidden from " + name("source", s),
                {i});
       open[f] = 1;
     }
+  }
   for (const Face_id f : certificate.undecided)
     if (!open[f]) reject(name("face", f) + " is undecided, but shown to be hidden");
   const auto count = [](const Faces& of) { return static_cast<std::size_t>(std::count(of.begin(), of.end(), 1)); };

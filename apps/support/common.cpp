@@ -1,5 +1,6 @@
 #include "common.h"
 
+#include <sightline/algorithms/verify/keys_once.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/io/input.h>
 #include <sightline/io/number_lines.h>
@@ -233,7 +234,9 @@ std::string to_text(const Json& value, int indent) { return value.dump(indent); 
 
 nlohmann::json parse_json(const std::string& text, const std::string& name) {
   try {
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(text, refuse_keys_twice());
+  } catch (const std::invalid_argument& error) {
+    throw Input_error::of_file(name, std::string(error.what()) + "; leave one of them out");
   } catch (const nlohmann::json::parse_error& error) {
     const std::size_t place = std::min(std::max<std::size_t>(error.byte, 1) - 1, text.size());
     Input{name, text}.fail(text.data() + place,

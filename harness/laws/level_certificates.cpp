@@ -153,6 +153,22 @@ Outcome of_a_cell(const Posed_scene& posed, const Level_cells& level, Cell_id ce
       if (const Verdict lie = checker.check(said->cell, said->certificate); lie.accepted)
         return Outcome::failed(name + ": what is not true of it is accepted: " + lie.why);
 
+  // A way out beyond which there is nothing need not be told to whoever looks; who walks is told of its wall.
+  for (std::size_t s = 0; s < truth.certificate.sources.size(); ++s) {
+    const Points& source = truth.certificate.sources[s];
+    if (has_scene_in_front(level, source)) continue;
+    Said less = truth;
+    less.certificate.sources.erase(less.certificate.sources.begin() + static_cast<std::ptrdiff_t>(s));
+    const Verdict without = checker.check(less.cell, less.certificate);
+    if (!without.accepted) return Outcome::failed(name + " is refused without a way to nowhere: " + without.why);
+    const std::vector<std::size_t>& open = checker.open_walls();
+    const bool is_told = std::any_of(open.begin(), open.end(), [&](std::size_t w) {
+      const Flat_face wall(less.cell.walls[w]);
+      return std::all_of(source.begin(), source.end(), [&](const Exact_point& p) { return wall.holds(p); });
+    });
+    if (!is_told) return Outcome::failed(name + " has a way that is neither a source nor an open wall");
+  }
+
   // Who knows another scene says what one says who knows none.
   Said other = truth;
   std::vector<Order_fragment>& fragments = other.certificate.fragments;
@@ -186,7 +202,7 @@ Outcome of_all(const Posed_scene& posed, const Level_cells& level, Random& rando
     Polygon_soup soup = posed.soup;
     const std::size_t place = random.below(said.size());
     Cell_of_level& cell = said[place];
-    const std::size_t way = random.below(6);
+    const std::size_t way = random.below(7);
     if (way == 0) {  // a hole, unless what is left is a smaller box
       said.erase(said.begin() + static_cast<std::ptrdiff_t>(place));
       if (said.empty() || box_about_cells(said) != box_about_cells(truth)) continue;
@@ -226,6 +242,15 @@ Outcome of_all(const Posed_scene& posed, const Level_cells& level, Random& rando
         cell.sources.clear();
         if (box_about_cells(said) != box_about_cells(truth)) continue;
       }
+    }
+    if (way == 6) {  // a room left out, to which a wall that nobody looks through is open
+      const std::vector<std::uint32_t>& walls = level.cells()[place].walls;
+      const std::size_t w = random.below(walls.size());
+      const Cell_wall& wall = level.walls()[walls[w]];
+      if (!cell.has_certificate || wall.open.empty() || wall.behind == no_cell) continue;
+      for (Cell_of_level& any : said) any.sources.clear();
+      cell.open_walls = {w};
+      said[wall.front == place ? wall.behind : wall.front].has_certificate = false;
     }
     if (const Verdict lie = verify_level_fill(soup, said); lie.accepted)
       return Outcome::failed("cells that do not fill the box, or leave out a room, are accepted: " + lie.why);

@@ -66,6 +66,25 @@ Polygon_soup polyhedron(const Level_cells& level, const std::vector<Cell_id>& ce
   return soup;
 }
 
+Exact_point any_point_of(const Level_cells& level, Cell_id cell, Random& random) {
+  Exact_point p = level.inside(cell);
+  const std::vector<std::uint32_t>& walls = level.cells()[cell].walls;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<std::uint32_t>& corners = level.walls()[walls[random.below(walls.size())]].corners;
+    const Exact_point& corner = level.points()[corners[random.below(corners.size())]];
+    const Rational part = generate::ratio(static_cast<long>(random.below(64)), 64);
+    for (std::size_t i = 0; i < 3; ++i) p[i] += part * (corner[i] - p[i]);
+  }
+  return p;
+}
+
+bool have_a_way(const Level_cells& level, Cell_id a, Cell_id b) {
+  return std::any_of(level.cells()[a].walls.begin(), level.cells()[a].walls.end(), [&](std::uint32_t w) {
+    const Cell_wall& wall = level.walls()[w];
+    return !wall.open.empty() && (wall.front == b || wall.behind == b);
+  });
+}
+
 std::vector<std::pair<std::uint32_t, Cell_id>> walls_about(const Level_cells& level,
                                                            const std::vector<Cell_id>& cells) {
   std::vector<std::pair<std::uint32_t, Cell_id>> walls;

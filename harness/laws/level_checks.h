@@ -30,6 +30,12 @@ std::array<Exact_point, 2> box_of_corners(const Polygon_soup& soup);
 /// Six times the volume of the cone from the origin to a polygon, positive where its front looks away.
 Rational six_cones(const generate::Points& polygon);
 
+/// A random point of a cell's inside.
+Exact_point any_point_of(const Level_cells& level, Cell_id cell, Random& random);
+
+/// Whether a wall between two cells has an open part.
+bool have_a_way(const Level_cells& level, Cell_id a, Cell_id b);
+
 // ---- Cells together
 
 /// Walls between cells of a set and others, or the end of the world, each with the cell of the set.

@@ -29,8 +29,10 @@
 
 #include <CGAL/Cartesian.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 namespace sightline::harness {
@@ -104,6 +106,41 @@ Outcome by_kernel(const Posed_scene& posed, const Answer& answer, const std::str
   if (here.splits != there.splits) return differ("splits", here.splits, there.splits);
   if (here.fragments != there.fragments) return differ("fragments", here.fragments, there.fragments);
   return compared(answer, other, "exact", name);
+}
+
+/// In numbers that round, whose answers are wrong where scenes are degenerate: the tree has all fragments but those
+/// that rounding left without an inside, each drawn once; and where whole numbers are so small that no sign is rounded,
+/// and nothing is cut, sides are as they are.
+template <class Kernel>
+Outcome by_rounding_kernel(const Posed_scene& posed, const Answer& answer, const std::string& name) {
+  constexpr int most_bits = 6;  // signs take four times as many, floats have 24
+  const Scene scene(posed.soup);
+  Bsp_counters counters;
+  std::size_t drawn = 0;
+  Answer other;
+  try {
+    const Point_traits<Kernel> traits(scene);
+    other = by_tree(posed, scene, traits, false, &counters);
+    traverse(traits, build_bsp(traits, serial()), traits.eye(posed.eye), Direction::front_to_back,
+             [&](const auto&, Sign) { ++drawn; });
+  } catch (const std::domain_error&) {  // beyond the range of the numbers
+    return Outcome::not_applicable();
+  }
+  if (counters.fragments + counters.degenerate != counters.pieces + counters.splits)
+    return Outcome::failed("fragments in " + name + " are not pieces and splits, without those that are dropped");
+  if (drawn != counters.fragments) return Outcome::failed("fragments in " + name + " are not drawn once each");
+  const bool is_small = scene.bits() <= most_bits &&
+                        std::all_of(posed.eye.begin(), posed.eye.end(),
+                                    [](const Rational& x) { return x.get_den() == 1 && abs(x) < (1 << most_bits); });
+  const bool is_whole = is_small && scene.scale_bits() <= 1;
+  return is_whole && counters.splits == 0 ? compared(answer, other, "exact", name) : Outcome{};
+}
+Outcome in_rounding_kernels(const Posed_scene& posed, const Answer& answer, Random& random) {
+  switch (random.below(3)) {
+    case 0: return by_rounding_kernel<CGAL::Simple_cartesian<float>>(posed, answer, "floats");
+    case 1: return by_rounding_kernel<CGAL::Simple_cartesian<double>>(posed, answer, "doubles");
+    default: return by_rounding_kernel<CGAL::Epick>(posed, answer, "Epick");
+  }
 }
 
 /// By another tree of the same faces, its planes chosen otherwise; progress is told of each fragment once.
@@ -198,6 +235,8 @@ Subject order() {
   for (const Check& check : {points_check(), first_hit_check(), parts_check(), face_graph_check()})
     subject.checks.push_back(check);
   subject.checks.push_back({"another_tree", "an order by a tree of planes chosen otherwise", by_another_tree});
+  subject.checks.push_back(
+      {"rounding", "trees in floats and doubles have all fragments, each once", in_rounding_kernels});
   subject.checks.push_back(manners_check(questions_of_order()));
   return subject;
 }

@@ -71,43 +71,48 @@ std::string flaw_of_places(const Polygon_soup& before, const Rounded_surface& af
   return {};
 }
 
-/// That no two points or faces of a snapped surface are the same, that its corners are floats, all of one grid if it is
-/// a coarser one, and which of those before are none of them, and which of them are new, is told. `nearest`: the
+/// Whether the numbers hold a coordinate.
+bool is_held(const Rational& x, Rounding to) {
+  const double near = x.get_d();
+  return exact(near) == x && (to == Rounding::to_double || static_cast<double>(static_cast<float>(near)) == near);
+}
+
+/// The step that the numbers have at one, towards 0.
+double step_at(double x, Rounding to) {
+  if (to == Rounding::to_double) return x - std::nextafter(x, 0.0);
+  const auto single = static_cast<float>(x);
+  return static_cast<double>(single - std::nextafter(single, 0.0F));
+}
+
+/// That no two points or faces of a snapped surface are the same, that the numbers hold its corners, all of one grid if
+/// it is a coarser one, and which of those before are none of them, and which of them are new, is told. `nearest`: the
 /// surface once rounded, point by point.
-std::string flaw_of_points(const Polygon_soup& nearest, const Rounded_surface& after) {
-  using Floats = std::array<float, 3>;
-  const auto floats_of = [](const Exact_point& p) {
-    Floats floats;
-    for (std::size_t k = 0; k < 3; ++k) floats[k] = static_cast<float>(p[k].get_d());
-    return floats;
-  };
-  std::set<Floats> then, now;
-  float farthest = 0;
+std::string flaw_of_points(const Polygon_soup& nearest, const Rounded_surface& after, Rounding to) {
+  std::set<Exact_point> then, now;
+  double farthest = 0;
   for (Point_id p = 0; p < nearest.point_count(); ++p) {
-    const Floats at = floats_of(nearest.point(p));
+    const Exact_point at = nearest.point(p);
     then.insert(at);
-    for (const float x : at) farthest = std::max(farthest, std::fabs(x));
+    for (const Rational& x : at) farthest = std::max(farthest, std::fabs(x.get_d()));
   }
+  const double step = std::ldexp(step_at(farthest, to), after.coarser);
   for (Point_id p = 0; p < after.soup.point_count(); ++p) {
     const Exact_point at = after.soup.point(p);
-    const Floats floats = floats_of(at);
-    now.insert(floats);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (exact(static_cast<double>(floats[k])) != at[k]) return "a coordinate is no float";
-      const double steps = static_cast<double>(floats[k]) /
-                           std::ldexp(static_cast<double>(std::nextafter(farthest, 0.0F) - farthest), after.coarser);
-      if (after.coarser > 0 && steps != std::floor(steps)) return "a coordinate is not of the grid";
+    now.insert(at);
+    for (const Rational& x : at) {
+      if (!is_held(x, to)) return "the numbers do not hold a coordinate";
+      if (after.coarser > 0 && Rational(x / exact(step)).get_den() != 1) return "a coordinate is not of the grid";
     }
   }
   if (now.size() != after.soup.point_count()) return "two points are at one place";
   std::size_t vanished = 0, added = 0;
-  for (Point_id p = 0; p < nearest.point_count(); ++p) vanished += now.count(floats_of(nearest.point(p))) == 0;
-  for (Point_id p = 0; p < after.soup.point_count(); ++p) added += then.count(floats_of(after.soup.point(p))) == 0;
+  for (Point_id p = 0; p < nearest.point_count(); ++p) vanished += now.count(nearest.point(p)) == 0;
+  for (Point_id p = 0; p < after.soup.point_count(); ++p) added += then.count(after.soup.point(p)) == 0;
   if (vanished != after.vanished.size() || added != after.added.size()) return "points vanish or come and are not told";
   for (const Point_id p : after.vanished)
-    if (now.count(floats_of(nearest.point(p))) > 0) return "a point is said to vanish that is there";
+    if (now.count(nearest.point(p)) > 0) return "a point is said to vanish that is there";
   for (const Point_id p : after.added)
-    if (then.count(floats_of(after.soup.point(p))) > 0) return "a point is said to be new that was there";
+    if (then.count(after.soup.point(p)) > 0) return "a point is said to be new that was there";
   std::set<std::set<Point_id>> faces;
   for (Face_id f = 0; f < after.soup.face_count(); ++f) {
     const std::span<const Point_id> loop = after.soup.loop(f);
@@ -256,13 +261,12 @@ Polygon_soup union_of(const std::vector<Polygon_soup>& solids, Inside_rule rule)
 
 }  // namespace
 
-std::string flaw_of_rounded(const Polygon_soup& exact, Random& random) {
+std::string flaw_of_rounded(const Polygon_soup& exact, Rounding to, Random& random) {
   const std::size_t few_rounds = 1 + random.below(3);
   std::vector<Rounded_surface> all;
   try {
-    all = {rounded(exact, Rounding::to_float), snapped(exact, Rounding::to_float),
-           snapped(exact, Rounding::to_float, false, {}, few_rounds)};
-  } catch (const std::domain_error&) {  // beyond what floats hold
+    all = {rounded(exact, to), snapped(exact, to), snapped(exact, to, false, {}, few_rounds)};
+  } catch (const std::domain_error&) {  // beyond what the numbers hold
     return {};
   }
   for (const Rounded_surface& near : all) {
@@ -290,7 +294,7 @@ std::string flaw_of_rounded(const Polygon_soup& exact, Random& random) {
     if (const std::string flaw = flaw_of_sides(near, nothing_meets, random); !flaw.empty()) return name + flaw;
     if (!near.is_sound()) continue;
     if (near.rounds > 0)
-      if (const std::string flaw = flaw_of_points(all[0].soup, near); !flaw.empty()) return name + flaw;
+      if (const std::string flaw = flaw_of_points(all[0].soup, near, to); !flaw.empty()) return name + flaw;
     if (const std::string flaw = flaw_of_places(exact, near, random); !flaw.empty()) return name + flaw;
     const Rational signed_volume = volume(near.soup);
     for (const Inside_rule rule : {Inside_rule::positive, Inside_rule::nonzero})
@@ -304,13 +308,15 @@ std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& ra
   Set_options options;
   options.operation = set_operations[random.below(4)];
   const Set_result result = set_operation(Operands(solids), options);
-  const Rational far = generate::power_of_two(static_cast<int>(random.between(10, 24)));
+  const Rounding to = random.chance(1, 3) ? Rounding::to_double : Rounding::to_float;
+  const int more_bits = to == Rounding::to_double ? 29 : 0;
+  const Rational far = generate::power_of_two(static_cast<int>(random.between(10, 24)) + more_bits);
   const Polygon_soup exact = without_holes(generate::translated(result.soup, {far, far / 3, 0})).soup;
-  if (const std::string flaw = flaw_of_rounded(exact, random); !flaw.empty()) return flaw;
-  if (const std::string flaw = flaw_of_rounded(generate::thin_tetrahedron(random), random); !flaw.empty())
+  if (const std::string flaw = flaw_of_rounded(exact, to, random); !flaw.empty()) return flaw;
+  if (const std::string flaw = flaw_of_rounded(generate::thin_tetrahedron(random), to, random); !flaw.empty())
     return "a thin tetrahedron, " + flaw;
   if (!random.chance(1, 2)) return {};
-  const std::string flaw = flaw_of_rounded(generate::tetrahedron_upon_a_box(random), random);
+  const std::string flaw = flaw_of_rounded(generate::tetrahedron_upon_a_box(random), to, random);
   return flaw.empty() ? flaw : "a tetrahedron upon a box, " + flaw;
 }
 

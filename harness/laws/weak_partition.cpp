@@ -95,6 +95,9 @@ std::string flaw_of_places(const Occluders& occluders, const Weak_source& source
     const bool is_sliver = partition.cells[c].area.low < 1e-6;  // doubles do not tell where it is
     if (found != c && found != Light_partition::none && !is_sliver) return "a point of a cell is found in another one";
   }
+  for (const auto& [x, y] : {std::array{0, 1}, {2, 1}, {1, 0}, {1, 2}})  // halves of the chart's sides
+    if (partition.cell_at(Rational(x) / 2, Rational(y) / 2) != Light_partition::none)
+      return "a point on the chart's border is found in a cell";
   generate::Random places(partition.cells.size());
   for (int k = 0; k < 3; ++k) {
     const auto number = [&] { return Rational(static_cast<long>(places.between(-20, 1020)), 1000l); };

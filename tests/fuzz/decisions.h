@@ -2,6 +2,7 @@
 // Trees of on-view tests against all trees, by sets of views; the views of some planes against eyes anywhere; and eyes
 // of objects that move.
 
+#include "refusals.h"
 #include "support.h"
 
 #include <sightline/algorithms/cutset/decision_tree.h>
@@ -141,6 +142,23 @@ inline void try_tests(Bytes& from) {
   require(tree->bound == Rational(least_of_binary_trees(ends) / total), "the bound is that of any binary tree");
 }
 
+/// What is refused: too many faces, faces beyond them, weights below zero.
+inline void try_refused_views(Bytes& from) {
+  const unsigned faces = static_cast<unsigned>(from.below(40));
+  std::vector<Weighted_view> views;
+  bool right = faces <= 32, has_weight = false;
+  for (std::size_t k = 1 + from.below(3); k > 0; --k) {
+    const std::uint32_t on_view = from.below(2) == 0 ? static_cast<std::uint32_t>(from.below(8)) : 1u << from.below(32);
+    const Rational weight(static_cast<long>(from.below(8)) - (from.below(4) == 0 ? 4 : 0));
+    views.push_back({on_view, weight});
+    for (unsigned face = faces; face < 32; ++face) right = right && (on_view >> face & 1) == 0;
+    right = right && weight >= 0;
+    has_weight = has_weight || weight > 0;
+  }
+  const bool refused = is_refused<std::invalid_argument>([&] { least_tests(views, faces, 1000000); });
+  require(refused == (!right || !has_weight), "views are refused iff faces or weights are out of bounds");
+}
+
 inline void try_views(Bytes& from) {
   std::vector<std::array<Rational, 4>> planes;
   for (std::size_t k = 1 + from.below(6); k > 0; --k) {
@@ -164,7 +182,21 @@ inline void try_views(Bytes& from) {
     return set;
   };
   std::map<std::uint32_t, bool> open;  // by set
-  for (const View_cell& cell : view_cells(planes)) {
+  const std::vector<View_cell> cells = view_cells(planes);
+  const bool with_inside = from.below(2) == 0;
+  std::size_t listed = 0;
+  for (const Weighted_view& view : uniform_likelihood(cells, with_inside)) {
+    const auto cell =
+        std::find_if(cells.begin(), cells.end(), [&](const View_cell& one) { return one.on_view == view.on_view; });
+    require(cell != cells.end() && view.weight == (cell->on_view != 0 && cell->open ? 1 : 0),
+            "open views that show a face are as likely as each other, others not likely at all");
+    ++listed;
+  }
+  require(listed ==
+              static_cast<std::size_t>(std::count_if(
+                  cells.begin(), cells.end(), [&](const View_cell& cell) { return with_inside || cell.on_view != 0; })),
+          "each view has its likelihood");
+  for (const View_cell& cell : cells) {
     require(open.emplace(cell.on_view, cell.open).second, "a view is listed once");
     require(seen_from(cell.sample) == cell.on_view && on_view_from(planes, cell.sample) == cell.on_view,
             "a view's sample has it");
@@ -230,7 +262,9 @@ inline void try_motion(Bytes& from) {
 
 inline void decisions(std::string_view bytes) {
   Bytes from(bytes);
-  if (from.below(8) == 0) try_motion(from);
+  const std::size_t kind = from.below(8);
+  if (kind == 0) try_motion(from);
+  else if (kind == 1) try_refused_views(from);
   else if (from.below(2) == 0) try_tests(from);
   else try_views(from);
 }

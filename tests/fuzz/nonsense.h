@@ -165,7 +165,7 @@ inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
       if (is_cut && entry.source < sources && entry.fragment < fragments)
         nonsense.way("a cut that holds all", [&claim, &entry, &node](Bytes&) {
           node.plane = plane_through_corners(node.kind == Kind::cut_source ? claim.sources[entry.source]
-                                                              : claim.fragments[entry.fragment].vertices);
+                                                                           : claim.fragments[entry.fragment].vertices);
         });
       nonsense.emptied("node.terms", node.terms);
       if (node.kind == Kind::empty && node.terms.empty())  // nothing is inside

@@ -34,27 +34,27 @@ bool is_refused(Run run) {
 
 // ---- Sources
 
-using Flat_point = std::array<Rational, 2>;
+using Loop_point = std::array<Rational, 2>;
 
 /// Twice the signed area of a triangle.
-inline Rational turn_of(const Flat_point& p, const Flat_point& q, const Flat_point& r) {
+inline Rational turn_of(const Loop_point& p, const Loop_point& q, const Loop_point& r) {
   return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
 /// The corners of the convex hull, counterclockwise from the least one; fewer than three of points on a line. By trying
 /// all lines through two points.
-inline std::vector<Flat_point> hull_of(std::vector<Flat_point> points) {
+inline std::vector<Loop_point> hull_of(std::vector<Loop_point> points) {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  std::vector<Flat_point> hull{points.front()};
+  std::vector<Loop_point> hull{points.front()};
   for (;;) {
     // The next corner has nothing to its right, and is the farthest such.
-    std::optional<Flat_point> next;
-    for (const Flat_point& q : points) {
+    std::optional<Loop_point> next;
+    for (const Loop_point& q : points) {
       if (q == hull.back()) continue;
       const bool is_edge = std::all_of(points.begin(), points.end(),
-                                       [&](const Flat_point& r) { return turn_of(hull.back(), q, r) >= 0; });
-      const auto beyond = [&](const Flat_point& p) -> Rational {
+                                       [&](const Loop_point& r) { return turn_of(hull.back(), q, r) >= 0; });
+      const auto beyond = [&](const Loop_point& p) -> Rational {
         return abs(Rational(p[0] - hull.back()[0])) + abs(Rational(p[1] - hull.back()[1]));
       };
       if (is_edge && (!next || beyond(q) > beyond(*next))) next = q;
@@ -66,18 +66,18 @@ inline std::vector<Flat_point> hull_of(std::vector<Flat_point> points) {
 
 /// The corners that a loop has as a source: it goes once around its hull, counterclockwise or clockwise, never back;
 /// nothing where it does not. Begins where the loop comes to a corner of the hull first.
-inline std::vector<Flat_point> corners_of_source(std::vector<Flat_point> loop) {
+inline std::vector<Loop_point> corners_of_source(std::vector<Loop_point> loop) {
   loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
   while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-  std::vector<Flat_point> hull = hull_of(loop);
+  std::vector<Loop_point> hull = hull_of(loop);
   if (hull.size() < 3) return {};
   for (const bool turned : {false, true}) {
     if (turned) std::reverse(hull.begin(), hull.end());
     // 1. How far along the hull each is: an edge's number, and the share of it.
     std::vector<Rational> places;
-    for (const Flat_point& p : loop)
+    for (const Loop_point& p : loop)
       for (std::size_t k = 0; k < hull.size(); ++k) {
-        const Flat_point &a = hull[k], &b = hull[(k + 1) % hull.size()];
+        const Loop_point &a = hull[k], &b = hull[(k + 1) % hull.size()];
         if (turn_of(a, b, p) != 0) continue;
         const std::size_t axis = a[0] == b[0] ? 1 : 0;
         const Rational share = (p[axis] - a[axis]) / (b[axis] - a[axis]);
@@ -88,8 +88,8 @@ inline std::vector<Flat_point> corners_of_source(std::vector<Flat_point> loop) {
     std::size_t back = 0;
     for (std::size_t k = 0; k < places.size(); ++k) back += places[(k + 1) % places.size()] <= places[k];
     if (back != 1) continue;
-    std::vector<Flat_point> corners;
-    for (const Flat_point& p : loop)
+    std::vector<Loop_point> corners;
+    for (const Loop_point& p : loop)
       if (std::find(hull.begin(), hull.end(), p) != hull.end()) corners.push_back(p);
     return corners;
   }
@@ -99,20 +99,20 @@ inline std::vector<Flat_point> corners_of_source(std::vector<Flat_point> loop) {
 inline void try_source(Bytes& from) {
   // 1. A loop: anything, a hull with straight and repeated corners, every second corner of it; in the plane or a little
   // off it.
-  std::vector<Flat_point> loop;
+  std::vector<Loop_point> loop;
   for (std::size_t k = 0, count = 2 + from.below(7); k < count; ++k)
     loop.push_back({static_cast<long>(from.below(5)), static_cast<long>(from.below(5))});
   const std::size_t kind = from.below(4);
   if (kind != 0) {
     loop = hull_of(loop);
     if (kind == 2) {
-      std::vector<Flat_point> star;
+      std::vector<Loop_point> star;
       for (std::size_t k = 0; k < loop.size(); ++k) star.push_back(loop[2 * k % loop.size()]);
       loop = star;
     }
     for (std::size_t more = from.below(3); more > 0; --more) {
       const std::size_t k = from.below(loop.size());
-      const Flat_point a = loop[k], b = loop[(k + 1) % loop.size()];
+      const Loop_point a = loop[k], b = loop[(k + 1) % loop.size()];
       const Rational share = Rational(1, 2) * static_cast<long>(from.below(3));
       loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(k) + 1,
                   {Rational(a[0] + share * (b[0] - a[0])), Rational(a[1] + share * (b[1] - a[1]))});
@@ -122,14 +122,14 @@ inline void try_source(Bytes& from) {
   }
   const auto small = [&] { return static_cast<long>(from.below(7)) - 3; };
   const Exact_point origin{small(), small(), small()}, u{1, small(), small()}, v{0, 1 + from.below(3), small()};
-  const auto in_space = [&](const Flat_point& p) {
+  const auto in_space = [&](const Loop_point& p) {
     Exact_point at;
     for (std::size_t k = 0; k < 3; ++k) at[k] = origin[k] + p[0] * u[k] + p[1] * v[k];
     return at;
   };
   std::vector<Exact_point> points;
-  for (const Flat_point& p : loop) points.push_back(in_space(p));
-  std::vector<Flat_point> expected = corners_of_source(loop);
+  for (const Loop_point& p : loop) points.push_back(in_space(p));
+  std::vector<Loop_point> expected = corners_of_source(loop);
   if (expected.size() > 3 && from.below(4) == 0) {  // a corner of four or more is off the plane of the others
     const auto moved = in_space(expected[from.below(expected.size())]);
     for (Exact_point& p : points)
@@ -142,7 +142,7 @@ inline void try_source(Bytes& from) {
   const bool refused = is_refused<std::invalid_argument>([&] { found = strict_corners(points); });
   require(refused == expected.empty(), "a source is refused iff it does not go once around a convex polygon");
   std::vector<Exact_point> corners;
-  for (const Flat_point& p : expected) corners.push_back(in_space(p));
+  for (const Loop_point& p : expected) corners.push_back(in_space(p));
   require(refused || found == corners, "a source keeps its strict corners, in order");
 }
 

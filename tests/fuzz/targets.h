@@ -6,6 +6,7 @@
 #include "arcs.h"
 #include "bsp_queries.h"
 #include "certificate.h"
+#include "conics.h"
 #include "cover.h"
 #include "cutset.h"
 #include "decimal.h"
@@ -75,6 +76,7 @@ inline const std::vector<Target>& targets() {
                                        {"decisions", decisions, {}},
                                        {"refusals", refusals, {}},
                                        {"volumes", volumes, {}},
+                                       {"conics", conics, {}},
                                        {"arcs", arcs, {}},
                                        {"planar_parts", planar_parts, {}},
                                        {"cutset", cutset, {}},

@@ -3,6 +3,7 @@
 #include "program.h"
 
 #include <array>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -44,6 +45,16 @@ TEST_F(Boolean, writes_results_that_its_checker_accepts) {
   EXPECT_EQ(run({"verify", a, why}).code, disagreement);  // of three solids
   ASSERT_EQ(run({"boolean", "union", a, "--certificate", why}).code, done);
   EXPECT_EQ(run({"verify", a, why}).code, done);
+  // Wherever in the file the format is told.
+  std::ifstream written(why);
+  nlohmann::ordered_json told = nlohmann::ordered_json::parse(written);
+  const std::string format = told["format"];
+  told.erase("format");
+  told["format"] = format;
+  std::ofstream(why) << told;
+  const Outcome last = run({"verify", a, why});
+  EXPECT_EQ(last.code, done) << last;
+  EXPECT_NE(last.out.find("union of 1 solids (inside: positive)"), std::string::npos) << last;
 }
 
 TEST_F(Boolean, writes_exact_results_that_its_checker_reads_however_many_denominators_they_have) {

@@ -493,6 +493,39 @@ TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
   }
 }
 
+TEST_F(Levels, an_index_says_what_it_says_once_and_in_numbers_that_fit) {
+  ASSERT_EQ(run({"pvs", rooms, "--certificates", out("proofs")}).code, done);
+  const std::string truth = bytes_of("proofs/index.json");
+  const Json index = Json::parse(truth);
+  const auto refused = [&](const std::string& text, const std::string& what) {
+    std::ofstream(path("proofs/index.json")) << text;
+    const Outcome r = run({"verify", rooms, out("proofs")});
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_NE(r.err.find(what), std::string::npos) << r;
+  };
+  const auto with = [&](auto change) {
+    Json said = index;
+    change(said["cells"]);
+    return said.dump();
+  };
+  refused(with([](Json& cells) { cells[0]["within"] = {4294967296u + 0}; }), "no whole number up to 4294967295");
+  refused(with([](Json& cells) { cells[0]["within"] = {1.5}; }), "no whole number");
+  refused(with([](Json& cells) { cells[0]["cell"] = -1; }), "\"cell\" is no whole number");
+  refused(with([](Json& cells) { cells[1]["cell"] = cells[0]["cell"]; }), "twice");
+  refused(with([](Json& cells) { cells[1]["certificate"] = cells[0]["certificate"]; }), "twice");
+  refused(with([](Json& cells) { cells[0]["certificate"] = "../x.json"; }), "no file of this folder");
+  refused(truth.substr(0, truth.rfind('}')) + ", \"rest\": []}", "the key \"rest\" is there twice");
+  // Certificates of both sides are those of another question.
+  std::ofstream(path("proofs/index.json")) << truth;
+  const std::string name = "proofs/" + index["cells"][0]["certificate"].get<std::string>();
+  Json both = Json::parse(bytes_of(name));
+  both["two_sided"] = true;
+  std::ofstream(path(name)) << both;
+  const Outcome sides = run({"verify", rooms, out("proofs")});
+  EXPECT_EQ(sides.code, disagreement) << sides;
+  EXPECT_NE(sides.out.find("backs count as visible"), std::string::npos) << sides;
+}
+
 TEST_F(Levels, cells_that_are_left_out_of_an_index_are_missed) {
   ASSERT_EQ(run({"pvs", rooms, "--certificates", out("proofs")}).code, done);
   const Json index = Json::parse(bytes_of("proofs/index.json"));
@@ -505,6 +538,7 @@ TEST_F(Levels, cells_that_are_left_out_of_an_index_are_missed) {
   const Outcome truth = verified([](Json&) {});
   EXPECT_EQ(truth.code, done) << truth;
   EXPECT_NE(truth.out.find("they fill a box about the scene, and no way leads to these"), std::string::npos) << truth;
+  EXPECT_NE(truth.out.find(" faces seen in all, 0 undecided"), std::string::npos) << truth;
   const Outcome hole = verified([](Json& said) { said["rest"].erase(0); });
   EXPECT_EQ(hole.code, disagreement) << hole;
   EXPECT_NE(hole.out.find("with no cell beyond it"), std::string::npos) << hole;

@@ -465,7 +465,7 @@ TEST(Checker, takes_neighbours_for_one_patch_only_if_their_fronts_are_on_one_sid
   const Solid_certificate claim = uncut({all});
   EXPECT_EQ(claim.fragments.size(), 6u);
   EXPECT_EQ(verify_solids(std::vector{all}, claim, &cube).why,
-            "union of 1 solids: 6 of 6 fragments bound it, and are the result");
+            "union of 1 solids (inside: positive): 6 of 6 fragments bound it, and are the result");
 }
 
 TEST(Checker, takes_holes_of_a_result_in_either_sense) {

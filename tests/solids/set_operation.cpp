@@ -471,6 +471,25 @@ TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
   std::string broken = text.str();
   broken.replace(broken.find("\"vertices\": [0"), 14, "\"vertices\": [9999");
   EXPECT_THROW(read_solid_certificate(broken), std::invalid_argument);
+  // A key twice; and a large point that is named without end.
+  const auto said_of = [](const std::string& what) -> std::string {
+    try {
+      read_solid_certificate(what);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  std::string twice = text.str();
+  twice.replace(twice.find("\"fate\": "), 0, "\"fate\": \"kept\", ");
+  EXPECT_NE(said_of(twice).find("the key \"fate\" is there twice"), std::string::npos) << said_of(twice);
+  std::string large = R"({"format": "sightline boolean 1", "operation": "union", "inside": "odd", "operands": 1,
+    "points": [["1)" + std::string(500000, '7') +
+                      R"(", "0", "0"]], "fragments": [)";
+  for (int k = 0; k < 1000; ++k) large += R"({"parts": [], "vertices": [0, 0, 0], "front": [], "fate": "kept"},)";
+  large.back() = ']';
+  large += R"(, "pieces": [], "set_aside": []})";
+  EXPECT_NE(said_of(large).find("they take more than 64 times the file"), std::string::npos) << said_of(large);
 }
 
 TEST(Certificates, of_numbers_that_do_not_fit_are_refused_and_errors_are_one_line) {

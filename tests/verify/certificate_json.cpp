@@ -203,6 +203,33 @@ TEST(Certificate_json, a_large_point_is_not_named_without_end) {
       << fault;
 }
 
+TEST(Certificate_json, a_large_ray_is_not_named_without_end) {
+  const auto with = [](std::size_t uses) {
+    std::string text = R"({"format":"sightline see 2","eye":["0","0","0"],"rays":[["0","0","1)" +
+                       std::string(500000, '7') + R"("]],"parts":[{"fragment":0,"rays":[0,0,0]})";
+    for (std::size_t k = 1; k < uses; ++k) text += R"(,{"fragment":0,"rays":[0,0,0]})";
+    return text +
+           R"(],"empty":[],"fragments":[{"face":0,"piece":0,"vertices":[["0","0","0"],["1","0","0"],["0","1","0"]]}]})";
+  };
+  std::istringstream few(with(100)), many(with(10000));
+  EXPECT_NO_THROW(read_certificate(few));
+  try {
+    read_certificate(many);
+    FAIL();
+  } catch (const Certificate_error& error) {
+    EXPECT_NE(error.message.find("are named so often that they take more than 64 times the file"), std::string::npos)
+        << error.message;
+  }
+}
+
+TEST(Certificate_json, what_has_a_key_twice_is_refused) {
+  const auto with = [](const std::string& fragment) {
+    return R"({"format":"sightline order 2","eye":["0","0","0"],"fragments":[)" + fragment + "]}";
+  };
+  EXPECT_EQ(fault_of(with(R"({"face":0,"piece":0,"vertices":[],"face":1})")),
+            "certificate: line 1, column 106: fragments[0]: the key \"face\" is there twice");
+}
+
 TEST(Certificate_json, what_belongs_to_another_kind_is_passed_over) {
   const std::string head =
       R"({"arcs":7,"parts":[1],"rays":{"a":[[[[[[[[[[]]]]]]]]]]},"lines":[[0]],"empty":[[[5]],[1]],)";

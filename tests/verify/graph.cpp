@@ -222,6 +222,19 @@ TEST(Graph_certificate, must_not_dissolve_a_component_by_cutting) {
   }
 }
 
+TEST(Graph_certificate, takes_straight_corners_of_parts) {
+  // A face that is not convex, and one that is not planar, each in two parts with a corner more.
+  const Points bent{at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(3, 1, 0)};
+  Graph_scene concave;
+  concave.scene.face(bent);
+  concave.certificate.fragments = {{0, 0, {bent[0], at(2, 0, 0), bent[1], bent[3]}},
+                                   {0, 0, {bent[1], bent[2], bent[3]}}};
+  concave.certificate.sizes = {1, 1};
+  expect_accepted(concave, "of 2 pieces");
+  concave.certificate.fragments[0].vertices[1] = at(2, ratio(1, 1000), 0);  // not straight
+  EXPECT_FALSE(concave.verdict().accepted);
+}
+
 TEST(Graph_certificate, with_a_witness_that_is_none_is_rejected) {
   const Graph_scene whole = ring();
   std::size_t wrong = 0;

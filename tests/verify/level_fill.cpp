@@ -52,5 +52,20 @@ TEST(Level_fill, has_no_way_to_a_cell_without_a_certificate) {
   EXPECT_EQ(why(cells, true), "2 cells fill a box about the scene, 2 of them have certificates");
 }
 
+TEST(Level_fill, has_no_wall_open_to_a_cell_without_a_certificate) {
+  std::vector<Cell_of_level> cells = two_cells();
+  cells[0].has_certificate = true;
+  cells[0].open_walls = {0};  // in a side of the box
+  EXPECT_EQ(why(cells, true), "2 cells fill a box about the scene, 1 of them have certificates");
+  cells[0].open_walls = {0, 1};
+  EXPECT_EQ(
+      why(cells),
+      "cell 7: some of wall 1 is covered by no source and no face, and beyond is cell 8, which has no certificate");
+  cells[1].has_certificate = true;
+  EXPECT_EQ(why(cells, true), "2 cells fill a box about the scene, 2 of them have certificates");
+  cells[1].open_walls = {6};
+  EXPECT_EQ(why(cells), "cell 8 has no wall 6");
+}
+
 }  // namespace
 }  // namespace verify_fill_test

@@ -14,6 +14,28 @@ using test_scenes::sample;
 
 using namespace verify_test;
 
+TEST(Newell_normal, of_fractions_with_long_denominators_is_the_sum_of_its_triangles) {
+  Dice dice(11);
+  for (const std::size_t corners : {3u, 4u, 5u, 8u, 13u}) {
+    Points loop;
+    for (std::size_t k = 0; k < corners; ++k) {
+      Exact_point& p = loop.emplace_back();
+      for (Rational& x : p) {
+        Integer denominator = 1;
+        for (int word = 0; word < 40; ++word) denominator = (denominator << 20) + roll(dice, 1, 1000000);
+        x = Rational(Integer(roll(dice, -1000, 1000)), Integer(2 * denominator + 1));
+        x.canonicalize();
+      }
+    }
+    Exact_point sum;
+    for (std::size_t k = 0; k < corners; ++k) {
+      const Exact_point &p = loop[k], &q = loop[(k + 1) % corners];
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3];
+    }
+    EXPECT_EQ(certificate_check::newell_normal(loop), certificate_check::primitive(sum)) << corners;
+  }
+}
+
 /// An affine map of space with small integers. Post: invertible; sometimes mirrored.
 struct Affine {
   std::array<std::array<long, 3>, 3> rows{};

@@ -178,6 +178,24 @@ TEST(Tiling, of_a_concave_face) {
   expect_rejected(one_face_drawn(ell, {rectangle(0, 4, 0, 2, 0), rectangle(0, 2, 0, 4, 0)}), "is not tiled");
 }
 
+TEST(Tiling, of_a_concave_face_may_have_more_parts_than_corners) {
+  const Points corner = {at(0, 0, 0), at(4, 0, 0), at(4, 2, 0), at(2, 2, 0), at(2, 4, 0), at(0, 4, 0)};
+  std::vector<Points> parts;
+  for (int k = 0; k < 8; ++k) parts.push_back(rectangle(ratio(k, 2), ratio(k + 1, 2), 0, k < 4 ? 4 : 2, 0));
+  expect_accepted(one_face_drawn(corner, parts));
+  for (Points& part : parts) std::rotate(part.begin(), part.begin() + 1, part.end());
+  expect_accepted(one_face_drawn(corner, parts));
+  std::vector<Points> missing = parts, doubled = parts;
+  missing.pop_back();
+  doubled.push_back(parts[2]);
+  expect_rejected(one_face_drawn(corner, missing), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(corner, doubled), "face 0 is not tiled");
+  // A spike across an edge of it, which no chain shows.
+  Points crossed = corner;
+  crossed.insert(crossed.begin() + 1, {at(1, 0, 0), at(1, 5, 0), at(1, 0, 0)});
+  expect_rejected(one_face_drawn(crossed, parts), "face 0 crosses itself and is not set aside");
+}
+
 TEST(Tiling, of_a_face_with_holes_of_either_sense) {
   const Points hole = rectangle(1, 2, 1, 2, 0), other = rectangle(3, ratio(7, 2), 1, 2, 0);
   const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0),
@@ -249,6 +267,10 @@ TEST(Tiling, of_a_face_that_winds_twice_is_an_overlap) {
   expect_rejected(one_face_drawn(twice, {ground, ground}), "overlap", {0, 1});
   expect_rejected(one_face_drawn(twice, {ground, rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 0, 4, 0)}), "overlap",
                   {0, 1});
+  // In more parts than it has corners, which are told by what the contour winds round.
+  std::vector<Points> strips;
+  for (int k = 0; k < 16; ++k) strips.push_back(rectangle(ratio(k % 8, 2), ratio(k % 8 + 1, 2), 0, 4, 0));
+  expect_rejected(one_face_drawn(twice, strips), "overlap", {0, 8});
   // Two squares in one contour, overlapping in [3, 4] x [1, 3], joined at (3, 1).
   const Points both = {at(3, 1, 0), at(0, 1, 0), at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0),
                        at(0, 1, 0), at(3, 1, 0), at(6, 1, 0), at(6, 3, 0), at(3, 3, 0)};

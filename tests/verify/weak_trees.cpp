@@ -445,6 +445,29 @@ TEST(Weak_size, of_a_tree_may_be_a_million_deep) {
   }
 }
 
+TEST(Weak_size, of_a_leaf_of_many_corners_asks_whether_to_go_on_before_each_edge) {
+  // Regular enough: points of a parabola, there and back along its chord.
+  const long corners = 60;
+  const auto disc = [&](long reach, const Rational& z, bool looks_up) {
+    Points result;
+    for (long k = 0; k <= corners; ++k) {
+      const Rational t = 2 * ratio(k, corners) - 1;
+      result.push_back(at(reach * t, reach * (t * t - 1) + reach - 1, z));
+    }
+    return looks_up ? result : reversed(result);
+  };
+  Weak_scene scene;
+  scene.from(disc(1, 0, true)).face(disc(1, 3, false));
+  scene.face(disc(9, 1, true));
+  scene.hide(0, {blocked(1)}).hide(1, {away()});
+  std::size_t calls = 0;
+  Verify_options options;
+  options.progress = [&](std::size_t, std::size_t) { ++calls; };
+  EXPECT_TRUE(verify_weak(scene.soup, scene.certificate, options).accepted)
+      << verify_weak(scene.soup, scene.certificate).why;
+  EXPECT_GT(calls, static_cast<std::size_t>(corners));
+}
+
 TEST(Weak_size, of_cuts_and_cells_is_bounded) {
   const auto shaved = [](std::size_t cuts, bool left) {
     // Tangents of a parabola, so that each cuts a corner off.

@@ -73,7 +73,8 @@ std::vector<Plane_curve> components(const Plane_curve& given) {
   }
   // y = (-(y + xy x) +- sqrt(d2 x^2 + d1 x + d0)) / (2 yy)
   const Integer d2 = xy * xy - 4 * yy * xx, d1 = 2 * (xy * y - 2 * yy * x), d0 = y * y - 4 * yy * one;
-  if (d1 * d1 != 4 * d2 * d0) return {curve};
+  if (const int roots = cmp(d1 * d1, Integer(4 * d2 * d0)); roots != 0)
+    return roots < 0 && sgn(d2) < 0 ? std::vector<Plane_curve>{} : std::vector{curve};
   Integer root;
   if (sgn(d2) != 0) {  // d2 (x + d1 / (2 d2))^2
     if (sgn(d2) < 0) return {};

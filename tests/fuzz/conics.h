@@ -1,0 +1,136 @@
+#pragma once
+// Curves of degree two in a plane: of which lines they consist, and where they are over a place.
+
+#include "support.h"
+
+#include <sightline/algorithms/weak_visibility/partition/plane_chart.h>
+#include <sightline/kernel/number.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace fuzz {
+
+/// c[0] + c[1] x + c[2] y + c[3] x^2 + c[4] x y + c[5] y^2, or of a line the first three.
+using Conic = std::array<Integer, 6>;
+using Plane_line = std::array<Integer, 3>;
+
+inline Conic product_of(const Plane_line& f, const Plane_line& g) {
+  return {Integer(f[0] * g[0]), Integer(f[0] * g[1] + f[1] * g[0]), Integer(f[0] * g[2] + f[2] * g[0]),
+          Integer(f[1] * g[1]), Integer(f[1] * g[2] + f[2] * g[1]), Integer(f[2] * g[2])};
+}
+
+/// Without a common factor, the last that is not zero positive.
+inline Conic canonical_conic(Conic c) {
+  Integer common = 0;
+  for (const Integer& x : c) common = gcd(common, x);
+  if (common == 0) return c;
+  const auto last = std::find_if(c.rbegin(), c.rend(), [](const Integer& x) { return x != 0; });
+  if (*last < 0) common = -common;
+  for (Integer& x : c) x /= common;
+  return c;
+}
+inline Conic canonical_line(const Plane_line& line) { return canonical_conic({line[0], line[1], line[2], 0, 0, 0}); }
+
+/// Whether the form of three variables that is the conic's has one strict sign: then it has no real point.
+inline bool is_definite(const Conic& c) {
+  const Integer a = 2 * c[3], b = c[4], d = 2 * c[5], e = c[1], f = c[2], g = 2 * c[0];  // ((a b e) (b d f) (e f g))
+  const Integer minor = a * d - b * b, all = a * (d * g - f * f) - b * (b * g - f * e) + e * (b * f - d * e);
+  return sgn(minor) > 0 && sgn(a) * sgn(all) > 0;
+}
+inline bool is_smooth(const Conic& c) {
+  const Integer a = 2 * c[3], b = c[4], d = 2 * c[5], e = c[1], f = c[2], g = 2 * c[0];
+  return a * (d * g - f * f) - b * (b * g - f * e) + e * (b * f - d * e) != 0;
+}
+
+/// What must be found of f g, of f^2 - n g^2, and of any conic that is smooth.
+struct Known_conic {
+  Conic conic;
+  std::vector<Conic> parts;
+};
+inline std::optional<Known_conic> any_conic(Bytes& from) {
+  const auto any = [&] { return Integer(static_cast<long>(from.below(11)) - 5); };
+  Plane_line f, g;
+  for (Integer& x : f) x = any();
+  for (Integer& x : g) x = any();
+  if (from.below(4) == 0) g = {any(), f[1], f[2]};  // parallel, or the same
+  if (from.below(6) == 0) f[2] = g[2] = 0;          // upright
+  const auto is_line = [](const Plane_line& line) { return line[1] != 0 || line[2] != 0; };
+  const Integer cross_xy = f[1] * g[2] - f[2] * g[1], cross_x = f[0] * g[1] - f[1] * g[0],
+                cross_y = f[0] * g[2] - f[2] * g[0];
+  const bool is_one = cross_xy == 0 && cross_x == 0 && cross_y == 0;  // multiples of each other
+  Known_conic known;
+  switch (from.below(3)) {
+    case 0: {
+      known.conic = product_of(f, g);
+      if (known.conic == Conic{}) return known;
+      for (const Plane_line& line : {f, g})
+        if (is_line(line)) known.parts.push_back(canonical_line(line));
+      break;
+    }
+    case 1: {
+      const std::array<long, 6> factors{2, 3, 6, -1, -2, -4};
+      const long n = factors[from.below(factors.size())];
+      known.conic = product_of(f, f);
+      const Conic other = product_of(g, g);
+      for (std::size_t k = 0; k < 6; ++k) known.conic[k] -= n * other[k];
+      if (known.conic == Conic{}) return known;
+      if (is_one) {  // a multiple of one line's square, or of 1
+        for (const Plane_line& line : {f, g})
+          if (is_line(line)) known.parts = {canonical_line(line)};
+      } else if (n > 0 && (is_line(f) || is_line(g))) {
+        known.parts = {canonical_conic(known.conic)};
+      }
+      break;
+    }
+    default: {
+      for (Integer& x : known.conic) x = any();
+      if (!is_smooth(known.conic)) return std::nullopt;
+      if (!is_definite(known.conic)) known.parts = {canonical_conic(known.conic)};
+    }
+  }
+  const long scale = static_cast<long>(from.below(5)) - 2;
+  if (scale != 0)
+    for (Integer& x : known.conic) x *= scale;
+  return known;
+}
+
+inline void conics(std::string_view bytes) {
+  Bytes from(bytes);
+  std::optional<Known_conic> known = any_conic(from);
+  if (!known) return;
+
+  // 1. Of what it consists.
+  std::vector<Conic> found;
+  for (const Plane_curve& part : components({known->conic})) found.push_back(part.c);
+  std::sort(found.begin(), found.end());
+  std::sort(known->parts.begin(), known->parts.end());
+  known->parts.erase(std::unique(known->parts.begin(), known->parts.end()), known->parts.end());
+  require(found == known->parts, "a curve consists of the lines that it is the product of, or is one");
+
+  // 2. Where it is: by its value there, and by how many values of y there are.
+  const auto number = [&]() -> Rational { return Rational(from.integer(3)) / (1 + static_cast<long>(from.below(4))); };
+  for (const Conic& c : found) {
+    const Plane_curve curve{c};
+    const Rational x = number(), y = number();
+    const auto value = [&](const Rational& at) {
+      return Rational(c[0] + c[1] * x + c[2] * at + c[3] * x * x + c[4] * x * at + c[5] * at * at);
+    };
+    require(curve.sign(x, y) == sgn(value(y)), "a curve's sign is that of its value");
+    const Rational linear = c[2] + c[4] * x, constant = value(0), square = linear * linear - 4 * c[5] * constant;
+    const bool is_quadratic = c[5] != 0;
+    const int count = is_quadratic ? 1 + sgn(square) : linear != 0 ? 1 : 0;
+    const std::optional<Quadratic_root> low = curve.height(x, false), high = curve.height(x, true);
+    require(low.has_value() == (count > 0) && high.has_value() == (is_quadratic && count > 0),
+            "a curve has as many places over one as its equation has roots");
+    for (const auto& root : {low, high})
+      if (root)
+        if (const std::optional<Rational> at = root->rational())
+          require(value(*at) == 0, "a curve is where it is said to be");
+  }
+}
+
+}  // namespace fuzz
