@@ -8,10 +8,12 @@
 #include <sightline/kernel/scene/set_aside.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sightline::certificate_check {
 
@@ -21,10 +23,21 @@ bool self_intersecting(const Face& face) {
 }
 
 bool same_cycle(const Polygon& a, const Polygon& b) {
-  if (a.size() != b.size()) return false;
-  Polygon twice = a;
-  twice.insert(twice.end(), a.begin(), a.end());
-  return std::search(twice.begin(), twice.end(), b.begin(), b.end()) != twice.end();
+  const std::size_t n = a.size();
+  if (n != b.size()) return false;
+  if (n == 0) return true;
+  // Knuth, Morris and Pratt: b in a told twice, whatever comes again and again in them.
+  std::vector<std::size_t> border(n + 1);  // of the first so many of b how many begin and end them
+  for (std::size_t k = 1, length = 0; k < n; border[++k] = length) {
+    while (length > 0 && b[k] != b[length]) length = border[length];
+    length += b[k] == b[length];
+  }
+  for (std::size_t k = 0, length = 0; k < 2 * n; ++k) {
+    while (length > 0 && a[k % n] != b[length]) length = border[length];
+    length += a[k % n] == b[length];
+    if (length == n) return true;
+  }
+  return false;
 }
 
 namespace {

@@ -51,7 +51,7 @@ Weak_faces by_events(const Occluders& occluders, const std::vector<Weak_source>&
 
 Outcome run(const Posed_scene& posed, const Answer& answer, Random& random) {
   constexpr std::size_t most_pieces = 16;
-  if (!random.chance(1, 2)) return Outcome::not_applicable();
+  if (!random.chance(1, 4)) return Outcome::not_applicable();
   const Scene scene(posed.soup);
   if (scene.pieces().size() > most_pieces) return Outcome::not_applicable();
   const Occluders occluders(scene);

@@ -124,7 +124,8 @@ TEST(Kernels, float_and_double_end_on_degenerate_scenes) {
     if (testing::Test::HasFailure()) return;
   }
   for (const Polygon_soup& soup :
-       {generate::lattice(6), generate::crossing(60), generate::soup(400, 0.6, 1), generate::rooms(2, 2, 1),
+       {generate::lattice(test_scenes::is_sanitized() ? 3 : 6), generate::crossing(test_scenes::sample(60u)),
+        generate::soup(test_scenes::sample(1200u), 0.6, 1), generate::rooms(2, 2, 1),
         generate::convex_sphere(test_scenes::sample(2000u)), generate::menger_sponge(1)})
     for (const Polygon_soup& same :
          {soup, generate::rotated(soup, generate::rotation(3, 1, -2, 1)),

@@ -116,4 +116,4 @@ if(CMAKE_GENERATOR STREQUAL "Ninja")
   set(keep_going -- -k0)
 endif()
 add_test(NAME headers.and_examples_compile_alone COMMAND "${CMAKE_COMMAND}" --build "${PROJECT_BINARY_DIR}" --target ${header_groups} ${keep_going})
-set_tests_properties(headers.and_examples_compile_alone PROPERTIES RESOURCE_LOCK build COST 100)  # one build of a folder at a time. What takes longest begins: at the end only short tests are left, for all processors
+set_tests_properties(headers.and_examples_compile_alone PROPERTIES RESOURCE_LOCK build COST 100)  # one build of a folder at a time; it takes longest, so it begins

@@ -62,9 +62,9 @@ TEST(Bsp2d_surfaces, of_scenes_cut_by_planes_of_no_face) {
   for (const Exact_point& eye : {inside, outside, at_corner}) expect_trees_see(soup, eye);
 }
 TEST(Bsp2d_surfaces, of_larger_scenes) {
-  expect_trees_see(generate::city(test_scenes::is_sanitized() ? 3 : 12, 2), {3, 4, 2});
-  expect_trees_see(generate::slivers(test_scenes::is_sanitized() ? 15 : 60, 3), {-1, -2, 3});
-  expect_trees_see(generate::soup(test_scenes::is_sanitized() ? 20 : 80, 0.5, 4),
+  expect_trees_see(generate::city(test_scenes::is_sanitized() ? 3 : 8, 2), {3, 4, 2});
+  expect_trees_see(generate::slivers(test_scenes::is_sanitized() ? 15 : 40, 3), {-1, -2, 3});
+  expect_trees_see(generate::soup(test_scenes::is_sanitized() ? 20 : 50, 0.5, 4),
                    {Rational(1, 2), Rational(1, 2), Rational(1, 3)});
 }
 TEST(Bsp2d_surfaces, are_the_cones_where_there_is_no_scene) {

@@ -36,9 +36,9 @@ void expect_clipping_sees(const Polygon_soup& soup, const Exact_point& eye) {
   surface_test::expect_as_seen({soup.file, soup, eye}, by_clip_polygons, compared);
 }
 TEST(Weiler_atherton_surfaces, of_larger_scenes) {
-  expect_clipping_sees(generate::city(test_scenes::is_sanitized() ? 3 : 12, 2), {3, 4, 2});
-  expect_clipping_sees(generate::slivers(test_scenes::is_sanitized() ? 15 : 60, 3), {-1, -2, 3});
-  expect_clipping_sees(generate::soup(test_scenes::is_sanitized() ? 20 : 80, 0.5, 4),
+  expect_clipping_sees(generate::city(test_scenes::is_sanitized() ? 3 : 8, 2), {3, 4, 2});
+  expect_clipping_sees(generate::slivers(test_scenes::is_sanitized() ? 15 : 40, 3), {-1, -2, 3});
+  expect_clipping_sees(generate::soup(test_scenes::is_sanitized() ? 20 : 50, 0.5, 4),
                        {Rational(1, 2), Rational(1, 2), Rational(1, 3)});
 }
 TEST(Weiler_atherton_surfaces, are_the_cones_where_there_is_no_scene) {

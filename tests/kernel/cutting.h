@@ -81,9 +81,16 @@ int cut_deep(const Traits& traits, Convex_polygon<Traits> polygon, const std::ve
     if (position(traits, polygon, cutter, counts) != Position::across) continue;
     const auto parts = checked_split(traits, polygon, cutter, plane_of(plane), store, counts);
     if (testing::Test::HasFailure()) return cuts;
-    const auto size = [&](std::size_t side) -> Rational {
-      const Vector a = area_vector(positions(traits, parts[side]));
-      return dot(a, a);
+    const auto size = [&](std::size_t side) {  // in doubles: any choice will do
+      std::array<double, 3> sum{};
+      const auto all = positions(traits, parts[side]);
+      for (std::size_t k = 0; k < all.size(); ++k)
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::size_t j = (i + 1) % 3, l = (i + 2) % 3;
+          const auto &p = all[k], &q = all[(k + 1) % all.size()];
+          sum[i] += p[j].get_d() * q[l].get_d() - p[l].get_d() * q[j].get_d();
+        }
+      return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
     };
     polygon = size(0) < size(1) ? parts[1] : parts[0];
     ++cuts;

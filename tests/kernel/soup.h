@@ -79,14 +79,19 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+/// Of the triangles of corner 0 with edges from `first` to `last`, half by half, as denominators become long.
+inline Vector area_between(const std::vector<Exact_point>& polygon, std::size_t first, std::size_t last) {
+  if (last <= first) return {0, 0, 0};
+  if (last == first + 1) return cross(minus(polygon[first], polygon[0]), minus(polygon[last], polygon[0]));
+  const std::size_t middle = first + (last - first) / 2;
+  Vector sum = area_between(polygon, first, middle);
+  const Vector other = area_between(polygon, middle, last);
+  for (std::size_t k = 0; k < 3; ++k) sum[k] += other[k];
+  return sum;
+}
 /// Twice the area vector of a closed polygon.
 inline Vector area_vector(const std::vector<Exact_point>& polygon) {
-  Vector sum{0, 0, 0};
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vector part = cross(minus(polygon[i], polygon[0]), minus(polygon[(i + 1) % polygon.size()], polygon[0]));
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
-  }
-  return sum;
+  return polygon.empty() ? Vector{0, 0, 0} : area_between(polygon, 1, polygon.size() - 1);
 }
 inline std::vector<Exact_point> loop_of(const Polygon_soup& soup, Face_id face, std::size_t loop = 0) {
   std::vector<Exact_point> polygon;

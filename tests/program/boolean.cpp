@@ -91,6 +91,7 @@ TEST_F(Boolean, takes_each_pair_of_solids_that_generate_makes) {
       const Outcome made = run({"boolean", operation, a, b, "--certificate", why});
       EXPECT_EQ(made.code, done) << made;
       EXPECT_EQ(run({"verify", a, why, "--solid", b}).code, done) << family;
+      if (sanitized) break;
     }
     if (family == "solids_touching" || family == "solids_opposite_planes")
       EXPECT_EQ(run({"boolean", "intersection", a, b, "--json", "-"}).json()["result"]["volume"], "0");

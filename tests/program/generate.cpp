@@ -28,7 +28,9 @@ class Generate : public Program {
 };
 
 TEST_F(Generate, every_kind_in_its_own_size_is_a_scene_of_faces_that_none_is_set_aside_of) {
+  std::size_t number = 0;
   for (const std::string& kind : kinds()) {
+    if (sanitized && number++ % 3 != 0) continue;
     const std::string scene = path(kind + ".qoff").string();
     const Outcome r = run({"generate", kind, "--out", scene});
     ASSERT_EQ(r.code, done) << r;
@@ -41,7 +43,9 @@ TEST_F(Generate, every_kind_in_its_own_size_is_a_scene_of_faces_that_none_is_set
 }
 
 TEST_F(Generate, every_kind_can_be_ordered_and_the_order_verified) {
+  std::size_t number = 0;
   for (const std::string& kind : kinds()) {
+    if (sanitized && number++ % 3 != 1) continue;
     const std::string scene = path(kind + ".qoff").string(), certificate = path("c.json").string();
     const std::string size = kind == "bars"                                  ? "5"
                              : kind.starts_with("menger_sponge")             ? "1"

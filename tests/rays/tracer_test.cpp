@@ -1,5 +1,7 @@
 // Rays by boxes, by a tree and by the definition: worked by hand, drawn at random, and as far as each stage decides.
 
+#include "../sample.h"
+
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/bsp/build.h>
@@ -385,7 +387,7 @@ TEST(Trace, rays_from_afar_are_as_sure) {
 }
 
 TEST(Trace, rays_whose_numbers_are_no_doubles_find_boxes_too) {
-  const Polygon_soup soup = generate::make("city", 200, 9);
+  const Polygon_soup soup = generate::make("city", test_scenes::is_sanitized() ? 40 : 200, 9);
   const Scene scene(soup);
   const Ray_tracer tracer(scene);
   const Exact_point middle = scene.position({0, 0, 0, 1});

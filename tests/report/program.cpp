@@ -40,9 +40,9 @@ class Report_command : public Program {
 TEST_F(Report_command, finds_a_program_wrong_and_shows_the_smallest_scene) {
   const std::string blind = file("blind.sh", "echo '# nothing' > /dev/null; : > \"$3\"\n");  // it sees nothing
   const std::string json = path("report.json").string();
-  const Outcome r = run(
-      words({"--program", "see=sh " + blind + " {scene} {query} {answer}", "--keep", path("kept").string(), "--reduce",
-             "150", "--json", json, "--html", path("report.html").string(), "--svg", path("report.svg").string()}));
+  const Outcome r = run(words({"--program", "see=sh " + blind + " {scene} {query} {answer}", "--keep",
+                               path("kept").string(), "--reduce", sanitized ? "60" : "150", "--json", json, "--html",
+                               path("report.html").string(), "--svg", path("report.svg").string()}));
   ASSERT_EQ(r.code, done) << r;
   const Json report = Json::parse(read_file(json));
 
@@ -301,9 +301,10 @@ TEST_F(Report_command, asks_programs_for_set_operations) {
 
 /// Each example marks the faces that are wrong, or says why it marks none.
 TEST_F(Report_command, marks_the_faces_that_are_wrong_of_each_question) {
-  const Outcome r = run({"report", "--questions", "order,see,render,trace,cutset,pvs", "--quick", "--families",
-                         "leaves,boxes,exponents", "--distances", "0", "--sizes", "0", "--cases", sanitized ? "1" : "2",
-                         "--reduce", "10", "--keep", path("kept").string(), "--json", "-"});
+  const Outcome r =
+      run({"report", "--questions", "order,see,render,trace,cutset,pvs", "--quick", "--families",
+           sanitized ? "leaves,boxes" : "leaves,boxes,exponents", "--distances", "0", "--sizes", "0", "--cases",
+           sanitized ? "1" : "2", "--reduce", "10", "--keep", path("kept").string(), "--json", "-"});
   ASSERT_EQ(r.code, done) << r;
   const std::map<std::string, std::set<std::string>> names{
       {"order", {"nearer, or missing", "drawn over it"}},
@@ -365,7 +366,8 @@ TEST_F(Report_command, of_a_folder_passes_over_what_cannot_be_read_and_shards_ad
   EXPECT_NE(not_asked.find("torn.off:1"), std::string::npos) << not_asked;
   EXPECT_NE(not_asked.find("two_rooms.off: a solid"), std::string::npos) << not_asked;
   std::vector<std::string> merge{"report", "--json", path("merged.json").string(), "--merge"};
-  const int shards = sanitized ? 2 : 8;
+  if (sanitized) return;  // each shard asks again; of_shards_and_resumed_is_the_same has shards, too
+  const int shards = 8;
   for (int k = 0; k < shards; ++k) {
     const std::string part = "part" + std::to_string(k) + ".json";
     ASSERT_EQ(ask(part, {"--shard", std::to_string(k) + '/' + std::to_string(shards)}).code, done);

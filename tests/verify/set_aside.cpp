@@ -4,6 +4,8 @@
 #include "scenes.h"
 #include "tree_order.h"
 
+#include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/set_aside.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/kernel/scene/set_aside.h>
 
@@ -192,6 +194,30 @@ TEST(Set_aside, as_scenes_do_it_with_twisted_holes) {
     }
   EXPECT_GT(aside, least(150u));
   EXPECT_GT(kept, least(150u));
+}
+
+TEST(Same_cycle, is_some_rotation_whatever_comes_again_in_it) {
+  Dice dice(5);
+  std::size_t same = 0;
+  for (int k = 0; k < 20000; ++k) {
+    Points a, b;
+    const long size = roll(dice, 0, 9), kinds = roll(dice, 1, 3);
+    for (long i = 0; i < size; ++i) a.push_back(at(roll(dice, 1, kinds), 0, 0));
+    b = a;
+    if (size > 0) std::rotate(b.begin(), b.begin() + roll(dice, 0, size - 1), b.end());
+    if (size > 0 && roll(dice, 0, 1) == 0) b[static_cast<std::size_t>(roll(dice, 0, size - 1))] = at(1, 0, 0);
+    bool expected = size == 0;
+    Points turned = a;
+    for (long i = 0; i < size; ++i) {
+      std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+      expected = expected || turned == b;
+    }
+    ASSERT_EQ(certificate_check::same_cycle(a, b), expected) << k;
+    same += expected;
+  }
+  EXPECT_GT(same, 5000u);
+  EXPECT_LT(same, 19000u);
+  EXPECT_FALSE(certificate_check::same_cycle({at(1, 0, 0)}, {}));
 }
 
 TEST(Set_aside, as_a_duplicate) {
