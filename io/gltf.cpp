@@ -14,6 +14,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -184,7 +185,7 @@ std::optional<std::string> data_of(std::string_view uri) {
   return bytes;
 }
 
-/// The path that a relative URI stands for; nothing where it is none.
+/// The path below a file's folder that a relative URI stands for; nothing where it is none.
 std::optional<std::string> path_of(std::string_view uri) {
   if (uri.empty() || uri.front() == '/' || uri.find(':') != std::string_view::npos) return std::nullopt;
   std::string path;
@@ -200,6 +201,8 @@ std::optional<std::string> path_of(std::string_view uri) {
     path += static_cast<char>(value);
     i += 2;
   }
+  const std::filesystem::path parts = path;
+  if (parts.is_absolute() || std::find(parts.begin(), parts.end(), "..") != parts.end()) return std::nullopt;
   return path;
 }
 

@@ -8,13 +8,18 @@
 #include <sightline/kernel/quoted.h>
 
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <map>
+#include <set>
+#include <string>
 #include <string_view>
 
 namespace sightline {
 
 namespace {
 
+constexpr std::size_t longest_name = 1000;  // each face gets a copy of it
 using Materials = std::map<std::string, Material, std::less<>>;
 
 /// The rest of a line, its words with one blank between them: names may have blanks.
@@ -58,6 +63,7 @@ void read_library(const Input& input, Materials& materials) {
     if (statement == "newmtl") {
       const std::string name = rest_of_line(text);
       if (name.empty()) text.fail(statement, "a material without a name; write newmtl NAME");
+      if (name.size() > longest_name) text.fail(statement, "a material's name is longer than 1000 bytes; shorten it");
       const auto [found, is_new] = materials.try_emplace(name, Material{name});
       current = is_new ? &found->second : &repeated;
     } else if (statement == "Kd" || statement == "d" || statement == "Tr") {
@@ -78,10 +84,12 @@ std::vector<std::optional<Material>> read_materials(const std::filesystem::path&
   Materials materials;
   std::vector<std::optional<Material>> of_faces;
   std::optional<Material> current;
+  std::set<std::string, std::less<>> read;  // libraries
   while (text.next_line()) {
     const std::string_view statement = text.next_token();
     if (statement == "mtllib") {
       for (std::string_view name = text.next_token(); !name.empty(); name = text.next_token()) {
+        if (!read.emplace(name).second) continue;
         const std::filesystem::path path = obj.parent_path() / std::filesystem::path(name);
         const std::string library = read_bytes(path);
         read_library({path.string(), library}, materials);

@@ -36,6 +36,13 @@ std::vector<Rational> numbers_in(std::string_view text, const std::string& wante
 namespace detail {
 
 bool is_header(std::string_view line) {
+  // Names of columns only: a slip of the pen among numbers is none.
+  for (std::size_t at = 0; at != std::string_view::npos && at < line.size();) {
+    const std::size_t sign = line.find_first_not_of("+-.", at);
+    if (sign != std::string_view::npos && line[sign] >= '0' && line[sign] <= '9') return false;
+    const std::size_t comma = line.find(',', at);
+    at = comma == std::string_view::npos ? comma : comma + 1;
+  }
   std::string begin(line.substr(0, 3));
   for (char& c : begin) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
   return begin[0] >= 'a' && begin[0] <= 'z' && begin != "nan" && begin != "inf";

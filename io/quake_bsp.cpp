@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace sightline {
 namespace {
@@ -223,9 +224,10 @@ class Level_reader {
     for (std::size_t l = 0; l < level_.leaves.size(); ++l)
       if (level_.visibility.empty() || l == 0 || l > level_.visible_leaves) level_.leaves[l].visible_at = -1;
     const Records leaves = records(lump_leaves, 28);
+    std::set<std::int64_t> known;
     for (std::size_t l = 1; l <= level_.visible_leaves && !level_.leaves.empty(); ++l) {
       const std::int64_t begin = level_.leaves[l].visible_at;
-      if (begin == -1) continue;
+      if (begin == -1 || !known.insert(begin).second) continue;
       if (begin < 0 || !unpacked_row(level_.visibility, static_cast<std::size_t>(begin), level_.visible_leaves))
         input_.fail_at_byte(leaves[l] + 4, "the row of what leaf " + std::to_string(l) +
                                                " sees does not end within its lump; compile the level again");

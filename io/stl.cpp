@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <functional>
 #include <ostream>
+#include <random>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -44,21 +45,31 @@ class Point_merger {
 
  private:
   struct Hash {
+    /// Another one in each process, so that nobody makes up points that have the same.
+    static std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
+      static const std::array<std::uint64_t, 2> secret = [] {
+        std::random_device random;
+        std::array<std::uint64_t, 2> words;
+        for (std::uint64_t& word : words) word = std::uint64_t{random()} << 32 | random();
+        return words;
+      }();
+      const unsigned __int128 product = static_cast<unsigned __int128>(a ^ secret[0]) * (b ^ secret[1]);
+      return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+    }
     static std::size_t hash(float value) { return std::hash<float>()(value); }  // 0 for -0, too
     static std::size_t hash(const Number& number) {
       if (const auto* decimal = std::get_if<Decimal>(&number))
-        return std::hash<std::int64_t>()(decimal->mantissa) + static_cast<std::size_t>(decimal->exponent);
+        return mixed(static_cast<std::uint64_t>(decimal->mantissa), static_cast<std::uint64_t>(decimal->exponent));
       if (const auto* floating = std::get_if<double>(&number)) return std::hash<double>()(*floating);
       const Rational& value = std::get<Rational>(number);
       return mpz_get_ui(value.get_num().get_mpz_t()) + 31 * mpz_get_ui(value.get_den().get_mpz_t());
     }
     std::size_t operator()(const Point& point) const {
-      std::uint64_t mixed = 0;
+      std::uint64_t all = 0;
       for (const Value& value : point) {
-        mixed = (mixed ^ hash(value)) * 0x9E3779B97F4A7C15u;
-        mixed ^= mixed >> 32;
+        all = mixed(all, hash(value));
       }
-      return mixed;
+      return all;
     }
   };
   std::unordered_map<Point, Point_id, Hash> ids_;

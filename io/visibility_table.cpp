@@ -2,6 +2,7 @@
 
 #include <sightline/io/binary.h>
 #include <sightline/io/bit_rows.h>
+#include <sightline/kernel/quoted.h>
 
 #include <algorithm>
 #include <bit>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::string_view first_line = "sightline pvs 1\n", first_line_with_cells = "sightline pvs 2\n";
 static_assert(first_line.size() == first_line_with_cells.size());
+constexpr std::size_t most_said = 400;  // bytes of a question
 
 class Table_reader {
  public:
@@ -43,6 +45,7 @@ class Table_reader {
       Visibility_table::Row& own = table.rows[r];
       own.visible = row_among(table.faces, "a row of visible faces");
       own.undecided = row_among(table.faces, "a row of undecided faces");
+      if (have_one_in_common(own.visible, own.undecided)) fail("a row of undecided faces that are not visible, too,");
       if (!has_cells || !table.lower_cells[asked[r]]) continue;
       for (const auto list : {&Visibility_table::Row::cells, &Visibility_table::Row::cells_undecided})
         for (const std::uint32_t other : row_among(table.cells, "a row of cells")) {
@@ -62,6 +65,11 @@ class Table_reader {
   [[noreturn]] void fail(const std::string& what) const {
     input_.fail_at_byte(std::min(at_, bytes_.size()),
                         "the file ends, or is broken, where " + what + " should be; make the table again");
+  }
+  /// Pre: both ascend.
+  static bool have_one_in_common(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+    return std::any_of(b.begin(), b.end(),
+                       [&](std::uint32_t one) { return std::binary_search(a.begin(), a.end(), one); });
   }
   std::size_t number(const char* what) {
     if (bytes_.size() - at_ < 4) fail(what);
@@ -123,8 +131,10 @@ Visibility_table joined(const std::vector<Visibility_table>& parts, const std::v
     const Visibility_table& part = parts[i];
     if (part.question != whole.question || part.cells != whole.cells || part.faces.size() != whole.faces.size() ||
         part.lower_cells.size() != whole.lower_cells.size())
-      throw Merge_error(names[i] + " answers another question than " + names[0] + ": \"" + part.question +
-                        "\", not \"" + whole.question + "\"; merge parts of one scene, with the same options");
+      throw Merge_error(names[i] + " answers another question than " + names[0] + ": \"" +
+                        printable(part.question, most_said, false) + "\", not \"" +
+                        printable(whole.question, most_said, false) +
+                        "\"; merge parts of one scene, with the same options");
     const auto add = [&](const char* what, std::vector<bool>& own, const std::vector<bool>& more,
                          std::vector<std::size_t>& from) {
       for (std::size_t k = 0; k < more.size(); ++k) {

@@ -5,7 +5,8 @@
 
 namespace sightline {
 
-/// For nlohmann::json::parse(): throws std::invalid_argument, in one line, where an object has a key twice.
+/// For nlohmann::json::parse(): throws std::invalid_argument, in one line, where an object has a key twice, or where
+/// objects and lists are more than 200 deep.
 nlohmann::json::parser_callback_t refuse_keys_twice();
 
 }  // namespace sightline

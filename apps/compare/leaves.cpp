@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <random>
 #include <set>
+#include <utility>
 
 namespace sightline::app {
 
@@ -140,25 +141,35 @@ Json judged(const Quake_level& file, const Rows& exact, const Rows& said, double
       {"errors", {{"wrongly_visible", visible_wrongly}, {"wrongly_hidden", hidden_wrongly}, {"worst_cell", worst}}}};
 }
 
-/// Adds the leaves below a node.
-void add_leaves(const Space_tree& tree, std::int32_t at, const Exact_point& p, const Exact_point& q,
+/// Adds the leaves below a node that a segment goes through, in its order.
+void add_leaves(const Space_tree& tree, std::int32_t below, const Exact_point& from, const Exact_point& to,
                 std::vector<std::size_t>& all) {
-  if (at < 0) {
-    all.push_back(static_cast<std::size_t>(-1 - at));
-    return;
-  }
-  const Space_tree::Node& node = tree.nodes[static_cast<std::size_t>(at)];
-  const auto height = [&](const Exact_point& x) {
-    const std::array<Rational, 4>& h = node.plane;
-    return Rational(h[0] * x[0] + h[1] * x[1] + h[2] * x[2] + h[3]);
+  struct Part {
+    std::int32_t at;
+    Exact_point p, q;
   };
-  const Rational a = height(p), b = height(q);
-  if (a == 0 && b == 0) return;  // along the border of leaves, inside none
-  if (sgn(a) * sgn(b) >= 0) return add_leaves(tree, node.children[a + b > 0 ? 0 : 1], p, q, all);
-  Exact_point middle;
-  for (std::size_t k = 0; k < 3; ++k) middle[k] = (b * p[k] - a * q[k]) / (b - a);
-  add_leaves(tree, node.children[a > 0 ? 0 : 1], p, middle, all);
-  add_leaves(tree, node.children[a > 0 ? 1 : 0], middle, q, all);
+  std::vector<Part> waiting{{below, from, to}};  // a level may be as deep as it has nodes
+  while (!waiting.empty()) {
+    const auto [at, p, q] = std::move(waiting.back());
+    waiting.pop_back();
+    if (at < 0) {
+      all.push_back(static_cast<std::size_t>(-1 - at));
+      continue;
+    }
+    const Space_tree::Node& node = tree.nodes[static_cast<std::size_t>(at)];
+    const std::array<Rational, 4>& h = node.plane;
+    const Rational a = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
+                   b = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
+    if (a == 0 && b == 0) continue;  // along the border of leaves, inside none
+    if (sgn(a) * sgn(b) >= 0) {
+      waiting.push_back({node.children[a + b > 0 ? 0 : 1], p, q});
+      continue;
+    }
+    Exact_point middle;
+    for (std::size_t k = 0; k < 3; ++k) middle[k] = (b * p[k] - a * q[k]) / (b - a);
+    waiting.push_back({node.children[a > 0 ? 1 : 0], middle, q});
+    waiting.push_back({node.children[a > 0 ? 0 : 1], p, middle});
+  }
 }
 
 /// That a segment begins and ends in these leaves and meets no closed face: by corners and rationals alone.

@@ -6,6 +6,7 @@
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 #include <sightline/io/exact_text.h>
+#include <sightline/kernel/quoted.h>
 
 #include <csignal>
 #include <cstring>
@@ -132,7 +133,10 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
   }
   judged.seconds = end.seconds;
   judged.bytes = end.bytes;
-  const std::string said = end.said.empty() ? "" : "; it said: " + end.said.substr(end.said.find_last_of('\n') + 1);
+  constexpr std::size_t most_said = 1000;
+  const std::string said =
+      end.said.empty() ? ""
+                       : "; it said: " + printable(end.said.substr(end.said.find_last_of('\n') + 1), most_said, false);
   const auto crashed = [&](const std::string& how) {
     judged.mark = judge::Mark::crashed;
     judged.why = how + said;
@@ -156,7 +160,7 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
 
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   try {
-    if (!fs::exists(answer())) throw std::invalid_argument("it wrote no answer");
+    if (!fs::is_regular_file(answer())) throw std::invalid_argument("it wrote no answer");
     judged.answer = read(asked, read_bytes(answer()));
     judged.grade = judge::grade(truth, judged.answer);
   } catch (const std::runtime_error& error) {  // no file that can be read

@@ -34,7 +34,8 @@ Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
   for (std::uint32_t b = 0; b < table_blocks; ++b) {
     const auto [shard, shards] = shard_of_block(b);
     names.push_back((folder / fmt::format("{}-of-{}.pvs", shard, shards)).string());
-    std::optional<Visibility_table> before = keep ? kept(names[b]) : std::nullopt;
+    if (keep) blocks_.push_back(names.back());
+    std::optional<Visibility_table> before = keep ? kept(names[b], shard, shards) : std::nullopt;
     if (before) parts[b] = *std::move(before);
     else missing.push_back(b);
   }
@@ -59,7 +60,15 @@ Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
 
 void Table_maker::remove_kept() const {
   std::error_code error;
-  fs::remove_all(arguments_.out + ".parts", error);
+  const fs::path folder = arguments_.out + ".parts";
+  std::vector<fs::path> own;  // blocks, and what was begun of them
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (std::any_of(blocks_.begin(), blocks_.end(), [&](const fs::path& block) {
+          return at->path().filename().string().starts_with(block.filename().string());
+        }))
+      own.push_back(at->path());
+  for (const fs::path& file : own) fs::remove(file, error);
+  fs::remove(folder, error);  // unless something else is in it
 }
 
 Table_maker::Part Table_maker::part(const Shard& own) {
@@ -138,12 +147,20 @@ fs::path Table_maker::kept_folder() const {
   return folder;
 }
 
-std::optional<Visibility_table> Table_maker::kept(const fs::path& path) const {
-  if (!fs::exists(path)) return std::nullopt;
+std::optional<Visibility_table> Table_maker::kept(const fs::path& path, std::uint32_t shard,
+                                                  std::uint32_t shards) const {
+  if (!fs::is_regular_file(path)) return std::nullopt;
   try {
     const std::string bytes = read_bytes(path);
     Visibility_table table = read_table({path.string(), bytes});
-    if (table.question == question_) return table;
+    // It is a block of this table, of its cells and of this share of its faces; else it is asked again.
+    const std::vector<char> asked = asked_cells(level_, arguments_.outside);
+    if (table.question != question_ || table.cells != std::vector<bool>(asked.begin(), asked.end()))
+      return std::nullopt;
+    std::vector<bool> faces(faces_), lower_cells(cell_search_ ? table.cells.size() : 0);
+    for (std::size_t f = shard; f < faces_; f += shards) faces[f] = true;
+    for (std::size_t c = shard; c < lower_cells.size(); c += shards) lower_cells[c] = true;
+    if (table.faces == faces && table.lower_cells == lower_cells) return table;
   } catch (const Input_error&) {
   }
   return std::nullopt;

@@ -60,8 +60,10 @@ class Table_maker {
 
   /// Where parts are kept. Errors: std::runtime_error where it cannot be made.
   std::filesystem::path kept_folder() const;
-  /// A part that was made before; nothing where there is none, or it is of another question.
-  std::optional<Visibility_table> kept(const std::filesystem::path& path) const;
+  /// A part that was made before; nothing where there is none, or it is of another question, of other cells, or of
+  /// other faces than those of this share.
+  std::optional<Visibility_table> kept(const std::filesystem::path& path, std::uint32_t shard,
+                                       std::uint32_t shards) const;
 
   const Pvs_arguments& arguments_;
   const Level_cells& level_;
@@ -73,6 +75,7 @@ class Table_maker {
   std::string question_;
   Counts counts_;
   std::uint32_t blocks_kept_ = 0;
+  std::vector<std::filesystem::path> blocks_;  // where they are kept
   std::size_t block_count_ = 1, blocks_left_ = 1;
 };
 

@@ -9,6 +9,7 @@
 #include <sightline/harness/laws/reduce.h>
 #include <sightline/io/write.h>
 
+#include <cstdint>
 #include <set>
 #include <sstream>
 
@@ -24,7 +25,11 @@ std::string stem_of(const report::Contender& who) {
     if (plain) stem += c;
     else if (!stem.empty() && stem.back() != '-') stem += '-';
   }
-  return stem.substr(0, 80);
+  constexpr std::size_t longest = 80;
+  if (stem.size() <= longest) return stem;
+  std::uint32_t hash = 0;  // of two that are cut off alike
+  for (const char c : stem) hash = 131 * hash + static_cast<unsigned char>(c);
+  return stem.substr(0, longest) + fmt::format("-{:08x}", hash);
 }
 
 bool repeats_a_point(const Polygon_soup& soup) {

@@ -6,6 +6,7 @@
 #include <sightline/io/input.h>
 #include <sightline/io/visibility_table.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/quoted.h>
 
 #include <algorithm>
 #include <array>
@@ -116,7 +117,7 @@ Cell_file::Cell_file(const std::string& file, const Polygon_soup& soup) : file_(
       throw Input_error::of_file(
           file, fmt::format("its cells are of another scene, {}; give that, or write the cells of {} with `sightline "
                             "cells SCENE --out FILE`, with the same --coordinates and --flip",
-                            json_.at("scene").get<std::string>(), soup.file));
+                            printable(json_.at("scene").get<std::string>(), 400, false), soup.file));
     if (made.at("sum") != sum_of(made)) fail("is damaged");
     const auto kind = std::find(division_names.begin(), division_names.end(), made.at("by").get<std::string>());
     if (kind == division_names.end()) fail("does not say how its cells were made");

@@ -230,13 +230,15 @@ bool write_json(const Common& common, const std::string& command, const Scene& s
   return taken;
 }
 
-std::string to_text(const Json& value, int indent) { return value.dump(indent); }
+std::string to_text(const Json& value, int indent) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);  // names of files may be no UTF-8
+}
 
 nlohmann::json parse_json(const std::string& text, const std::string& name) {
   try {
     return nlohmann::json::parse(text, refuse_keys_twice());
   } catch (const std::invalid_argument& error) {
-    throw Input_error::of_file(name, std::string(error.what()) + "; leave one of them out");
+    throw Input_error::of_file(name, std::string(error.what()) + "; write the file again");
   } catch (const nlohmann::json::parse_error& error) {
     const std::size_t place = std::min(std::max<std::size_t>(error.byte, 1) - 1, text.size());
     Input{name, text}.fail(text.data() + place,

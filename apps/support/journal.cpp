@@ -2,6 +2,7 @@
 
 #include "versions.h"
 
+#include <sightline/algorithms/verify/keys_once.h>
 #include <sightline/io/file.h>
 
 #include <cstdlib>
@@ -100,8 +101,12 @@ std::vector<nlohmann::json> Journal::lines() {
   const std::string bytes = read_bytes(file_);
   bool is_first = true;
   for (std::size_t at = 0, end; (end = bytes.find('\n', at)) != std::string::npos; at = end + 1) {
-    nlohmann::json line = nlohmann::json::parse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                                                bytes.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
+    nlohmann::json line = nlohmann::json::value_t::discarded;
+    try {
+      line = nlohmann::json::parse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                                   bytes.begin() + static_cast<std::ptrdiff_t>(end), refuse_keys_twice(), false);
+    } catch (const std::invalid_argument&) {  // none of ours
+    }
     if (is_first) check_resumed(file_, line, head_);
     else if (line.is_discarded()) break;
     else lines.push_back(std::move(line));

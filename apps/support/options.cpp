@@ -108,13 +108,27 @@ Command Command::add_command(std::string_view name, std::string_view description
   return Command(*app_->add_subcommand(std::string(name), std::string(description)));
 }
 
+/// An option whose value, if it is a whole number, is a decimal one: what begins with 0 would be read as octal.
+template <class T>
+static Option with_numbers(CLI::Option& option) {
+  if constexpr (std::is_integral_v<T>)
+    option.check(CLI::Validator(
+        [](std::string& text) {
+          const std::size_t first = text.find_first_not_of("+-");
+          const bool is_octal = first != std::string::npos && text[first] == '0' && first + 1 < text.size();
+          return is_octal ? '"' + text + "\" begins with 0; write it without" : "";
+        },
+        ""));
+  return Option(option);
+}
+
 template <Option_value T>
 Option Command::add_option(std::string_view name, T& variable, std::string_view description) const {
-  return Option(*app_->add_option(std::string(name), variable, std::string(description)));
+  return with_numbers<T>(*app_->add_option(std::string(name), variable, std::string(description)));
 }
 template <Option_value T>
 Option Command::add_option(std::string_view name, std::vector<T>& variable, std::string_view description) const {
-  return Option(*app_->add_option(std::string(name), variable, std::string(description)));
+  return with_numbers<T>(*app_->add_option(std::string(name), variable, std::string(description)));
 }
 template Option Command::add_option(std::string_view, std::string&, std::string_view) const;
 template Option Command::add_option(std::string_view, int&, std::string_view) const;

@@ -15,8 +15,12 @@ Shard shard_of(const std::string& text) {
     const char *const id = std::getenv("SLURM_ARRAY_TASK_ID"), *const count = std::getenv("SLURM_ARRAY_TASK_COUNT"),
                       *const least = std::getenv("SLURM_ARRAY_TASK_MIN");
     if (id == nullptr || count == nullptr) return {0, 1};
-    const auto number = [](const char* digits) {
-      return static_cast<std::uint32_t>(std::strtoul(digits, nullptr, 10));
+    const auto number = [](const char* digits) -> std::uint32_t {
+      const std::string text = digits;
+      if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+        throw Usage_error("SLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT or SLURM_ARRAY_TASK_MIN is no number; give " +
+                          std::string("--shard I/N"));
+      return static_cast<std::uint32_t>(std::stoul(text));
     };
     const std::uint32_t shard = number(id) - (least == nullptr ? 0 : number(least)), shards = number(count);
     if (shards == 0 || shard >= shards)

@@ -1,5 +1,6 @@
 #include <sightline/harness/judge/protocol.h>
 
+#include <sightline/algorithms/verify/keys_once.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/quoted.h>
 
@@ -88,7 +89,7 @@ std::vector<Exact_point> points_from_json(const nlohmann::json& value, const std
 namespace protocol_detail {
 
 Answer Answer_reader::from_json(const std::string& text) {
-  const nlohmann::json value = nlohmann::json::parse(text, nullptr, false);
+  const nlohmann::json value = nlohmann::json::parse(text, refuse_keys_twice(), false);
   if (value.is_discarded()) fail("begins with { but is not JSON");
   const std::string key = question_ == Question::order ? "order" : question_ == Question::trace ? "first" : "visible";
   const auto abstained = value.find("abstained");

@@ -114,7 +114,7 @@ void draw(Svg& svg, double x, const Panel& panel) {
   const auto up = [&](double e) { return low - (e - y0) / (y1 - y0) * (low - top); };
 
   // 2. The axes.
-  svg.label(left, 26, 16, panel.question.name + ": seconds against error");
+  svg.label(left, 26, 16, plain(panel.question.name) + ": seconds against error");
   svg.rectangle(left, zero_top, right - left, zero_low - zero_top, "#eef3ec");
   for (int e = static_cast<int>(std::ceil(x0)); e <= x1; ++e) {
     svg.line({across(e), top}, {across(e), zero_low}, "#d9dee2", 1);
@@ -144,7 +144,7 @@ void draw(Svg& svg, double x, const Panel& panel) {
       svg.polygon(mark(panel.shape(c), at(points[k]), 4.2 + 1.3 * static_cast<double>(k)), colour, "#ffffff", 0.6);
     const double y = top + row * (static_cast<double>(c) + 0.5);
     svg.polygon(mark(panel.shape(c), {right + 20, y}, 4.5), colour, "#ffffff", 0.6);
-    svg.label(right + 30, y + 4, 11, plain(panel.who[c].method) + ", " + panel.who[c].kernel);
+    svg.label(right + 30, y + 4, 11, plain(panel.who[c].method) + ", " + plain(panel.who[c].kernel));
   }
 }
 

@@ -1,6 +1,7 @@
 #include <sightline/harness/report/report.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <tuple>
@@ -65,10 +66,23 @@ Json to_json(const Example& e) {
                {"view", e.view}});
   return json;
 }
+bool is_count(const nlohmann::json& value) {
+  return value.is_number_unsigned() || (value.is_number_integer() && value.get<std::int64_t>() >= 0);
+}
+
+/// The name of a file of an example, which is written where somebody says: letters, digits and hyphens.
+std::string file_from_json(const nlohmann::json& v) {
+  const std::string file = member<std::string>(v, "file");
+  const std::size_t dot = file.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-");
+  if (dot == 0 || dot == std::string::npos || file.substr(dot) != ".off")
+    throw std::invalid_argument("no report: an example's \"file\" is no name of one");
+  return file;
+}
+
 Example example_from_json(const nlohmann::json& v) {
   return {contender_from_json(v),          member<std::string>(v, "family"),  member<std::string>(v, "distance"),
           member<std::size_t>(v, "size"),  member<std::uint64_t>(v, "seed"),  member<std::size_t>(v, "faces_before"),
-          member<std::size_t>(v, "faces"), member<double>(v, "error"),        member<std::string>(v, "file"),
+          member<std::size_t>(v, "faces"), member<double>(v, "error"),        file_from_json(v),
           member<std::string>(v, "scene"), member<std::string>(v, "query"),   member<std::string>(v, "why"),
           member<std::string>(v, "again"), member<std::string>(v, "picture"), v.value("view", nlohmann::json())};
 }
@@ -171,7 +185,8 @@ Report report_from_json(const nlohmann::json& document) {
   report.asked = member<nlohmann::json>(document, "asked");
   report.contents = member<nlohmann::json>(document, "contents");
   const nlohmann::json& shard = list(document, "shard");
-  if (shard.size() != 2 || !shard[0].is_number_unsigned() || !shard[1].is_number_unsigned() || shard[0] >= shard[1])
+  if (shard.size() != 2 || !shard[0].is_number_unsigned() || !shard[1].is_number_unsigned() || shard[0] >= shard[1] ||
+      shard[1].get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max())
     throw std::invalid_argument("no report: \"shard\" is none");
   report.shard = shard[0].get<std::uint32_t>();
   report.shards = shard[1].get<std::uint32_t>();
@@ -183,6 +198,9 @@ Report report_from_json(const nlohmann::json& document) {
   for (const nlohmann::json& row : list(result, "rows")) report.rows.push_back(row_from_json(row));
   for (const nlohmann::json& example : list(result, "examples")) report.examples.push_back(example_from_json(example));
   report.not_asked = member<nlohmann::json>(result, "not_asked");
+  if (!report.not_asked.is_object() ||
+      std::any_of(report.not_asked.begin(), report.not_asked.end(), [](const auto& count) { return !is_count(count); }))
+    throw std::invalid_argument("no report: \"not_asked\" is none");
   report.seconds = member<double>(member<nlohmann::json>(document, "seconds"), "all");
   return report;
 }

@@ -30,19 +30,28 @@ struct Face_loops {
   }
 };
 
+/// Where the least of a loop's rotations begins, in linear time, however often points come back: of two places that
+/// agree for so long, the one that is greater then is none, nor is any place that it has passed.
+std::size_t begin_of_least_rotation(const Point_loop& loop) {
+  const std::size_t n = loop.size();
+  std::size_t i = 0, j = 1, length = 0;
+  while (i < n && j < n && length < n) {
+    const std::uint32_t a = loop[(i + length) % n], b = loop[(j + length) % n];
+    if (a == b) {
+      ++length;
+      continue;
+    }
+    (a > b ? i : j) += length + 1;
+    if (i == j) ++j;
+    length = 0;
+  }
+  return std::min(i, j);
+}
+
 /// The loops begun so that equal ones are equal lists.
 std::vector<Point_loop> rotated(std::vector<Point_loop> loops) {
-  for (Point_loop& loop : loops) {
-    std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-    // Where the least point comes back, as in a keyhole, the least of the rotations that begin with it.
-    const Point_loop begun = loop;
-    for (std::size_t k = 1; k < begun.size(); ++k) {
-      if (begun[k] != begun[0]) continue;
-      Point_loop turned = begun;
-      std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(k), turned.end());
-      loop = std::min(loop, turned);
-    }
-  }
+  for (Point_loop& loop : loops)
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(begin_of_least_rotation(loop)), loop.end());
   return loops;
 }
 

@@ -347,8 +347,8 @@ TEST(Read_gltf, of_buffers_that_are_nowhere_says_so) {
     return why_not(gltf.tree);
   };
   EXPECT_NE(why_not(gltf.tree).find("buffers[0]: its data are not in this file"), std::string::npos);
-  for (const char* uri : {"https://example.org/a.bin", "/etc/passwd", "", "a%2", "a%zz", "a%00", "data:;base64,A*AA",
-                          "data:text/plain,abc", "file:a.bin"})
+  for (const char* uri : {"https://example.org/a.bin", "/etc/passwd", "%2Fetc%2Fpasswd", "../a.bin", "b/%2e./a.bin", "",
+                          "a%2", "a%zz", "a%00", "data:;base64,A*AA", "data:text/plain,abc", "file:a.bin"})
     EXPECT_NE(with(uri).find("is neither data in base64 nor a file beside this one"), std::string::npos) << with(uri);
   EXPECT_NE(with("points.bin").find("its data are not in this file, but in"), std::string::npos);
   EXPECT_NE(with("data:;base64,AAAA").find("it goes beyond its buffer"), std::string::npos);

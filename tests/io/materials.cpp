@@ -68,6 +68,7 @@ TEST_F(Materials, that_are_wrong_are_told_at_their_place) {
   EXPECT_TRUE(ends(error(obj, "newmtl m\nd\n"), "a.mtl:2:2: an opacity"));
   EXPECT_TRUE(ends(error(obj, "newmtl m\nTr -0.5\n"), "a.mtl:2:4: an opacity"));
   EXPECT_TRUE(ends(error(obj, "newmtl m\nd nan\n"), "a.mtl:2:3: "));
+  EXPECT_TRUE(ends(error(obj, "newmtl " + std::string(1001, 'm') + "\n"), "is longer than 1000 bytes"));
   EXPECT_TRUE(ends(error(obj, "newmtl m\nKd 1 2\n"), "a.mtl:2:7: a colour has three numbers"));
   EXPECT_TRUE(ends(error(obj, "newmtl m\nKd 1 2 1e999\n"), "a.mtl:2:8: "));
   EXPECT_TRUE(ends(error(obj, "Kd 1 1 1\n"), "a.mtl:1:1: \"Kd\" before any newmtl"));

@@ -40,6 +40,8 @@ TEST(Number_lines, pass_over_blanks_beside_commas_and_comments_and_empty_lines) 
 TEST(Number_lines, may_begin_with_names_and_only_once) {
   EXPECT_EQ(lines_of("x,y\n1,2\n"), "1,2");
   EXPECT_EQ(lines_of("# a comment\nWeight Face\n1,2\n"), "1,2");
+  EXPECT_EQ(lines_of("x1,y2\n1,2\n"), "1,2");
+  expect_error("O,2\n1,2\n", "file:1:1: ", "\"O\" is none");  // a letter among numbers
   expect_error("1,2\nx,y\n", "file:2:1: ", "\"x\" is none");
   expect_error("x,y\nx,y\n1,2\n", "file:2:1: ", "\"x\" is none");
   for (const char* text : {"nan,1\n", "NaN,1\n", "inf,1\n", "Infinity,1\n"})

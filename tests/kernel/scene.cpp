@@ -287,6 +287,24 @@ TEST(Scene_policy, a_hole_is_cut_out_whichever_way_it_runs_and_wherever_its_area
     expect_aside(one_face({contour, bow}), std::string(text_of(Set_aside_reason::no_simple_projection)));
 }
 
+TEST(Scene_policy, duplicates_begin_anywhere_however_often_they_come_back) {
+  // Petals about point 0, two of them alike: loops of up to 19 corners that begin at any.
+  Polygon_soup soup;
+  soup.add_point(0.0, 0.0, 0.0);
+  std::vector<Point_id> petals;
+  for (int k = 0; k < 6; ++k) {
+    const Point_id p = soup.add_point(10.0, 4.0 * k, 0.0), q = soup.add_point(10.0, 4.0 * k + 2, 0.0);
+    petals.insert(petals.end(), {0, p, q});
+  }
+  for (std::size_t k = 0; k < petals.size(); ++k) {
+    soup.add_face(petals);
+    std::rotate(petals.begin(), petals.begin() + 1, petals.end());
+  }
+  const Scene scene(soup);
+  ASSERT_EQ(scene.set_aside().size(), petals.size() - 1);
+  for (const Set_aside& entry : scene.set_aside()) EXPECT_EQ(why(scene, entry.face), "duplicate of 0") << entry.face;
+}
+
 TEST(Scene_policy, an_exact_duplicate_is_set_aside_and_says_of_what) {
   Polygon_soup soup = soup_of({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {4, 4, 0}});
   soup.add_face({0, 1, 2, 3});

@@ -143,6 +143,9 @@ TEST_F(Command_line, values_out_of_range_are_usage_errors) {
     expect_usage_error({"info", cube, "--threads", threads}, "--threads");
   for (const char* seed : {"-1", "x", "18446744073709551616", "1e3"})
     expect_usage_error({"bsp", cube, "--seed", seed}, "--seed");
+  for (const char* seed : {"010", "00", "08", "0x10"})  // octal, or hexadecimal, to some
+    expect_usage_error({"bsp", cube, "--seed", seed}, "--seed");
+  expect_usage_error({"bsp", cube, "--threads", "02"}, "--threads");
   for (const char* budget : {"-1", "soon"}) expect_usage_error({"bsp", cube, "--budget", budget}, "--budget");
   for (const char* field : {"0", "180", "wide", "nan"})
     expect_usage_error({"order", cube, "--eye", "3,4,5", "--field", field}, "--field");

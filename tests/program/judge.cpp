@@ -42,6 +42,7 @@ TEST_F(Judge, marks_what_became_of_a_program) {
   EXPECT_EQ(mark("kill -SEGV $$", "aggressive", disagreement), "crashed");
   EXPECT_EQ(mark("true", "exact", disagreement), "invalid");
   EXPECT_EQ(mark("mkdir $3; true", "exact", disagreement), "invalid");
+  EXPECT_EQ(mark("mkfifo $3", "exact", disagreement), "invalid");  // nobody writes into it
   EXPECT_EQ(mark("echo 1000000 > $3", "conservative", disagreement), "invalid");
   EXPECT_EQ(mark("echo abstained all > $3", "exact", done), "abstained");
   EXPECT_EQ(mark("echo 0 > $3", "exact", disagreement), "wrong");  // the others are missing

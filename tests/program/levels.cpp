@@ -108,6 +108,13 @@ TEST_F(Levels, a_cell_file_of_another_scene_or_a_damaged_one_is_refused) {
   damaged([](Json& c) { c.erase("walls"); }, "of its walls number 0");
   damaged([](Json& c) { c.erase("made"); }, "how its cells were made");
   damaged([](Json& c) { c["format"] = "sightline cells 0"; }, "is no file of cells");
+  damaged(
+      [](Json& c) {
+        Json deep = Json::array();
+        for (int k = 0; k < 1000; ++k) deep = Json::array({std::move(deep)});
+        c["format"] = std::move(deep);
+      },
+      "is nested too deeply");
   damaged([](Json& c) { c = Json::array(); }, "is no file of cells");
   for (const char* key : {"by", "candidates", "seed", "question", "grid", "volumes", "tree", "sum"})
     damaged([&](Json& c) { c["made"][key] = "leaves"; }, "is damaged");
@@ -231,6 +238,18 @@ TEST_F(Levels, what_was_done_before_an_end_is_not_done_again) {
   EXPECT_EQ(again.json()["result"]["blocks_kept"], 1);
   EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
   EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
+
+  // One that is of other faces than its name says is asked again; what somebody else put there stays.
+  std::filesystem::create_directories(path("again.pvs.parts"));
+  ASSERT_EQ(run({"pvs", rooms, "--shard", "3/64", "--out", out("again.pvs.parts/5-of-64.pvs"), "--seed", "1"}).code,
+            done);
+  std::ofstream(path("again.pvs.parts/mine.txt")) << "mine";
+  const Outcome other = run({"pvs", rooms, "--resume", "--out", out("again.pvs"), "--json", "-"});
+  ASSERT_EQ(other.code, done) << other;
+  EXPECT_EQ(other.json()["result"]["blocks_kept"], 0);
+  EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
+  EXPECT_EQ(bytes_of("again.pvs.parts/mine.txt"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts/5-of-64.pvs")));
 }
 
 TEST_F(Levels, what_a_budget_left_open_is_asked_again_and_nothing_else) {
@@ -660,6 +679,10 @@ TEST_F(Levels, shards_come_from_an_array_of_jobs) {
   setenv("SLURM_ARRAY_TASK_COUNT", "2", 1);
   setenv("SLURM_ARRAY_TASK_MIN", "2", 1);
   const Json part = run({"pvs", rooms, "--json", "-"}).json()["result"];
+  for (const char* id : {"abc", "1.9", "4294967297", ""}) {
+    setenv("SLURM_ARRAY_TASK_ID", id, 1);
+    EXPECT_EQ(run({"pvs", rooms, "--json", "-"}).code, usage) << id;
+  }
   for (const char* name : {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN"}) unsetenv(name);
   EXPECT_EQ(whole["faces"], 71);
   EXPECT_EQ(part["faces"], 35);  // 1, 3, ... 69

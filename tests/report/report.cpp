@@ -106,6 +106,22 @@ TEST(Report, is_read_as_it_was_written) {
   }
 }
 
+TEST(Report, of_somebody_else_names_no_files_elsewhere_and_no_numbers_that_do_not_fit) {
+  const Json written = to_json(half(1));
+  const auto refused = [&](auto change) {
+    Json other = written;
+    change(other);
+    EXPECT_THROW(report_from_json(nlohmann::json::parse(other.dump())), std::invalid_argument) << other.dump();
+  };
+  for (const char* file : {"../x.off", "/tmp/x.off", "a/b.off", ".off", "x.sh", "x.off.sh", "", "..", "x\n.off"})
+    refused([&](Json& r) { r["result"]["examples"][0]["file"] = file; });
+  refused([](Json& r) { r["shard"] = {4294967296u, 4294967297u}; });
+  for (const Json& count : {Json(-1), Json(1.5), Json("x")})
+    refused([&](Json& r) { r["result"]["not_asked"]["why"] = count; });
+  refused([](Json& r) { r["result"]["not_asked"] = {1}; });
+  EXPECT_NO_THROW(report_from_json(nlohmann::json::parse(written.dump())));
+}
+
 TEST(Report, sums_up_the_rows_of_each_contender) {
   Report report = whole();
   report.rows[3].crashed = 1;
