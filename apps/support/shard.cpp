@@ -16,11 +16,11 @@ Shard shard_of(const std::string& text) {
                       *const least = std::getenv("SLURM_ARRAY_TASK_MIN");
     if (id == nullptr || count == nullptr) return {0, 1};
     const auto number = [](const char* digits) -> std::uint32_t {
-      const std::string text = digits;
-      if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+      const std::string word = digits;
+      if (word.empty() || word.size() > 9 || word.find_first_not_of("0123456789") != std::string::npos)
         throw Usage_error("SLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT or SLURM_ARRAY_TASK_MIN is no number; give " +
                           std::string("--shard I/N"));
-      return static_cast<std::uint32_t>(std::stoul(text));
+      return static_cast<std::uint32_t>(std::stoul(word));
     };
     const std::uint32_t shard = number(id) - (least == nullptr ? 0 : number(least)), shards = number(count);
     if (shards == 0 || shard >= shards)

@@ -34,7 +34,7 @@ td, th { padding: 2px 8px; text-align: right; border-bottom: 1px solid var(--lin
 td.name, th.name { text-align: left } .swatch { display: inline-block; width: 10px; height: 10px; border-radius: 2px; margin-right: 6px }
 .cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(300px, 1fr)); gap: 14px }
 .card { border: 1px solid var(--line); border-radius: 7px; padding: 10px 12px; background: var(--panel); min-width: 0 }
-.card svg { display: block; width: 100%; height: auto; border-radius: 4px; margin: 6px 0 } .card .row { display: flex; gap: 8px; margin-top: 6px }
+.card img { display: block; width: 100%; height: auto; border-radius: 4px; margin: 6px 0 } .card .row { display: flex; gap: 8px; margin-top: 6px }
 .card code { display: block; background: var(--paper); padding: 5px 7px; border-radius: 4px }
 )css";
 

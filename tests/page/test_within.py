@@ -62,7 +62,9 @@ def test_a_wrong_case_is_turned_around_within_its_page(browser, request, of):
     frames = lambda: browser.find_elements("css selector", "iframe")
     knobs = browser.find_elements("css selector", ".card > button[data-view]")
     assert len(knobs) >= 2 and frames() == [], "made when it is asked for"
-    assert browser.find_elements("css selector", ".card svg"), "pictures stay"
+    pictures = browser.find_elements("css selector", ".card svg, .card img")
+    assert pictures and all(browser.execute_async_script(
+        "const [image, done] = arguments; if (image.tagName !== 'IMG') done(true); else image.decode().then(() => done(image.naturalWidth > 0), () => done(false))", one) for one in pictures), "pictures stay"
 
     # 1. By a key: the scene is drawn, what is wrong has a group and a colour of its own, and the eye and the line are there.
     wrong = next(i for i, knob in enumerate(knobs) if "missing but visible" in [g["name"] for g in views[int(knob.get_attribute("data-view"))]["groups"]])

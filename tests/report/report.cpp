@@ -191,6 +191,8 @@ TEST(Report_page, holds_all_rows_and_nothing_that_ends_its_data) {
   Report report = whole();
   report.rows[0].who.method = "</script><b>&";
   report.rows[0].seconds.reset();
+  EXPECT_EQ(report_page(report).find("innerHTML"), std::string::npos)
+      << "a picture of somebody else's may hold scripts";
   const Json data = data_of(report_page(report));
   ASSERT_FALSE(data.is_discarded());
   ASSERT_EQ(data["rows"].size(), 8u);
