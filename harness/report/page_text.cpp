@@ -203,7 +203,8 @@ const section = q => {
   const examples = data.examples.filter(e => e.question === data.questions[q].question);
   const cards = element('div', { class: 'cards' });
   for (const e of examples) {
-    const bytes = [...new TextEncoder().encode(e.picture)].map(b => String.fromCharCode(b)).join('');
+    const alone = e.picture.replace('<svg ', '<svg xmlns="http://www.w3.org/2000/svg" ');
+    const bytes = [...new TextEncoder().encode(alone)].map(b => String.fromCharCode(b)).join('');
     const picture = element('img', { alt: '', src: 'data:image/svg+xml;base64,' + btoa(bytes) });  // runs no script
     const save = (name, text) => element('a', { href: URL.createObjectURL(new Blob([text], { type: 'text/plain' })), download: name }, name);
     const copy = element('button', { type: 'button', onclick: () => { navigator.clipboard?.writeText(e.again); copy.textContent = 'copied'; } }, 'copy');
