@@ -214,19 +214,11 @@ Exact_point& Contents::at(const Place& place) {
   }
 }
 
-/// Few numbers must not become much memory: of large points that are named often.
-bool Contents::count(const Exact_point& point) {
-  constexpr std::size_t bytes_of_fraction = 64;  // beside its digits
-  for (const Rational& x : point)
-    written_out_ += (bit_length(x.get_num()) + bit_length(x.get_den())) / 8 + bytes_of_fraction;
-  return written_out_ <= std::max(std::size_t{1} << 28, 64 * read_);
-}
 void Contents::fail_as_too_much(const Table& table, const std::string& at) {
-  fail(at, std::string("points of \"") + table.key +
-               "\" are named so often that they take more than 64 times the file, and 256 MiB; write them out");
+  fail(at, std::string("points of \"") + table.key + "\" are " + Written_out::what_is_too_much + "; write them out");
 }
 void Contents::put(const Table& table, std::uint32_t number, Exact_point& there, const Place& place) {
-  if (!count(table.points[number])) fail_as_too_much(table, name_of(place));
+  if (!written_out_.add(table.points[number], read_)) fail_as_too_much(table, name_of(place));
   there = table.points[number];
 }
 void Contents::put_late(Table& table) {
@@ -396,7 +388,8 @@ void Contents::check_parts() {
     for (std::size_t i = 0; i < part.rays.size(); ++i) {
       if (part.rays[i] >= rays_.points.size())
         rays_.check(part.rays[i], entry_name(entry_name("parts", k) + ".rays", i));
-      if (!count(rays_.points[part.rays[i]])) fail_as_too_much(rays_, entry_name(entry_name("parts", k) + ".rays", i));
+      if (!written_out_.add(rays_.points[part.rays[i]], read_))
+        fail_as_too_much(rays_, entry_name(entry_name("parts", k) + ".rays", i));
     }
   }
 }

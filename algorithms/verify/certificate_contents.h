@@ -2,6 +2,7 @@
 // What entries of certificates are, taken one at a time in any order. Internal to certificate_json.cpp.
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/written_out.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -76,8 +77,6 @@ class Contents {
   void take_hidden(const nlohmann::json& entry, const At& at);
   void take_proof(const nlohmann::json& entry, const At& at);
   Exact_point& at(const Place& place);
-  /// Counts a point as written out; false: that is too much.
-  bool count(const Exact_point& point);
   [[noreturn]] static void fail_as_too_much(const Table& table, const std::string& at);
   void put(const Table& table, std::uint32_t number, Exact_point& there, const Place& place);
   void put_late(Table& table);
@@ -87,7 +86,7 @@ class Contents {
   void check_along() const;
 
   const std::size_t& read_;
-  std::size_t written_out_ = 0;
+  Written_out written_out_;
   std::string format_;
   Table points_{"points"}, rays_{"rays"};
   Covering covering_;

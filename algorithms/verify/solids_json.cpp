@@ -1,6 +1,7 @@
 #include <sightline/algorithms/verify/solids_json.h>
 
 #include <sightline/algorithms/verify/keys_once.h>
+#include <sightline/algorithms/verify/written_out.h>
 #include <sightline/kernel/quoted.h>
 
 #include <nlohmann/json.hpp>
@@ -21,15 +22,6 @@ namespace {
 constexpr std::size_t most_said = 200;  // bytes, of what is wrong with its JSON
 constexpr const char* solids_format = "sightline boolean 1";
 constexpr std::array<const char*, 3> fate_names{"dropped", "kept", "turned"};
-
-constexpr std::size_t most_written_out = std::size_t{1} << 28;  // bytes of points that are named, or 64 times the file
-
-std::size_t bytes_of(const Exact_point& p) {
-  constexpr std::size_t of_fraction = 64;  // beside its digits
-  std::size_t bytes = 0;
-  for (const Rational& x : p) bytes += (bit_length(x.get_num()) + bit_length(x.get_den())) / 8 + of_fraction;
-  return bytes;
-}
 
 /// Whole numbers that fit.
 std::uint32_t whole_number_of(const nlohmann::json& value) {
@@ -135,16 +127,14 @@ Solid_certificate read_solid_certificate(const std::string& text) {
       for (std::size_t k = 0; k < 3; ++k) p[k] = rational_from_string(point[k].get_ref<const std::string&>());
       points.push_back(std::move(p));
     }
-    std::size_t written_out = 0;
+    Written_out written_out;
     const auto loop = [&](const json& vertices) {
       std::vector<Exact_point> polygon;
       for (const json& number : vertices) {
         const std::uint32_t at = whole_number_of(number);
         if (at >= points.size()) throw std::invalid_argument("a vertex is none of the points");
-        written_out += bytes_of(points[at]);
-        if (written_out > std::max(most_written_out, 64 * text.size()))
-          throw std::invalid_argument(
-              "points are named so often that they take more than 64 times the file, and 256 MiB");
+        if (!written_out.add(points[at], text.size()))
+          throw std::invalid_argument(std::string("points are ") + Written_out::what_is_too_much);
         polygon.push_back(points[at]);
       }
       if (polygon.size() < 3) throw std::invalid_argument("a polygon of fewer than three vertices");

@@ -160,8 +160,9 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
 
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   try {
-    if (!fs::is_regular_file(answer())) throw std::invalid_argument("it wrote no answer");
-    judged.answer = read(asked, read_bytes(answer()));
+    const std::optional<std::string> text = said();
+    if (!text) throw std::invalid_argument("it wrote no answer");
+    judged.answer = read(asked, *text);
     judged.grade = judge::grade(truth, judged.answer);
   } catch (const std::runtime_error& error) {  // no file that can be read
     judged.mark = judge::Mark::invalid;

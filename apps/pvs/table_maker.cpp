@@ -19,6 +19,8 @@ Table_maker::Table_maker(const Pvs_arguments& arguments, const Division& divisio
       fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), division.candidates, division.seed,
                   arguments.outside ? ", outside" : "", division.question, arguments.cells_too ? ", cells too" : "");
   if (arguments.cells_too) cell_search_.emplace(level, options());
+  const std::vector<char> asked = asked_cells(level, arguments.outside);
+  asked_.assign(asked.begin(), asked.end());
 }
 
 Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
@@ -35,7 +37,7 @@ Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
     const auto [shard, shards] = shard_of_block(b);
     names.push_back((folder / fmt::format("{}-of-{}.pvs", shard, shards)).string());
     if (keep) blocks_.push_back(names.back());
-    std::optional<Visibility_table> before = keep ? kept(names[b], shard, shards) : std::nullopt;
+    std::optional<Visibility_table> before = keep ? kept(names[b], {shard, shards}) : std::nullopt;
     if (before) parts[b] = *std::move(before);
     else missing.push_back(b);
   }
@@ -71,11 +73,17 @@ void Table_maker::remove_kept() const {
   fs::remove(folder, error);  // unless something else is in it
 }
 
+/// Each number below `count` that is the shard's.
+static std::vector<bool> each_of(std::size_t count, const Shard& own) {
+  std::vector<bool> found(count);
+  for (std::size_t k = own.shard; k < count; k += own.shards) found[k] = true;
+  return found;
+}
+
 Table_maker::Part Table_maker::part(const Shard& own) {
   const auto [shard, shards] = own;
   const Pvs pvs = search_.ask(shard, shards);
-  Part part{{question_, std::vector<bool>(level_.cells().size()), std::vector<bool>(faces_), {}}, {pvs.counters, {}}};
-  for (std::size_t f = shard; f < faces_; f += shards) part.table.faces[f] = true;
+  Part part{{question_, std::vector<bool>(level_.cells().size()), each_of(faces_, own), {}}, {pvs.counters, {}}};
   for (Cell_id c = 0; c < level_.cells().size(); ++c)
     if (pvs.is_asked[c] != 0) {
       part.table.cells[c] = true;
@@ -127,8 +135,7 @@ void Table_maker::add_cells(Part& part, std::uint32_t shard, std::uint32_t shard
   const Cell_pvs pvs = cell_search_->ask(shard, shards);
   part.counts.cells = pvs.counters;
   Visibility_table& table = part.table;
-  table.lower_cells.resize(table.cells.size());
-  for (std::size_t c = shard; c < table.cells.size(); c += shards) table.lower_cells[c] = true;
+  table.lower_cells = each_of(table.cells.size(), {shard, shards});
   std::size_t r = 0;
   for (Cell_id c = 0; c < table.cells.size(); ++c) {
     if (!table.cells[c]) continue;
@@ -147,20 +154,16 @@ fs::path Table_maker::kept_folder() const {
   return folder;
 }
 
-std::optional<Visibility_table> Table_maker::kept(const fs::path& path, std::uint32_t shard,
-                                                  std::uint32_t shards) const {
+std::optional<Visibility_table> Table_maker::kept(const fs::path& path, const Shard& own) const {
   if (!fs::is_regular_file(path)) return std::nullopt;
   try {
     const std::string bytes = read_bytes(path);
     Visibility_table table = read_table({path.string(), bytes});
     // It is a block of this table, of its cells and of this share of its faces; else it is asked again.
-    const std::vector<char> asked = asked_cells(level_, arguments_.outside);
-    if (table.question != question_ || table.cells != std::vector<bool>(asked.begin(), asked.end()))
-      return std::nullopt;
-    std::vector<bool> faces(faces_), lower_cells(cell_search_ ? table.cells.size() : 0);
-    for (std::size_t f = shard; f < faces_; f += shards) faces[f] = true;
-    for (std::size_t c = shard; c < lower_cells.size(); c += shards) lower_cells[c] = true;
-    if (table.faces == faces && table.lower_cells == lower_cells) return table;
+    if (table.question != question_ || table.cells != asked_) return std::nullopt;
+    if (table.faces == each_of(faces_, own) &&
+        table.lower_cells == (cell_search_ ? each_of(table.cells.size(), own) : std::vector<bool>()))
+      return table;
   } catch (const Input_error&) {
   }
   return std::nullopt;

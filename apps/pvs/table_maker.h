@@ -62,8 +62,7 @@ class Table_maker {
   std::filesystem::path kept_folder() const;
   /// A part that was made before; nothing where there is none, or it is of another question, of other cells, or of
   /// other faces than those of this share.
-  std::optional<Visibility_table> kept(const std::filesystem::path& path, std::uint32_t shard,
-                                       std::uint32_t shards) const;
+  std::optional<Visibility_table> kept(const std::filesystem::path& path, const Shard& own) const;
 
   const Pvs_arguments& arguments_;
   const Level_cells& level_;
@@ -73,6 +72,7 @@ class Table_maker {
   Pvs_search search_;
   std::optional<Cell_pvs_search> cell_search_;
   std::string question_;
+  std::vector<bool> asked_;  // cells
   Counts counts_;
   std::uint32_t blocks_kept_ = 0;
   std::vector<std::filesystem::path> blocks_;  // where they are kept

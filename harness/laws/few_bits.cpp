@@ -43,7 +43,7 @@ bool has_small_numbers(const Seen& seen, long most) {
 
 /// Both show the same where all around a pixel show what it does, and nothing there is tied.
 Outcome same_within(const Pixel_view& pixels, const Piece_image& truth, const Piece_image& image,
-                    const std::string& method, const std::vector<bool>& tied) {
+                    const std::string& method, const std::vector<std::uint8_t>& tied) {
   const std::size_t width = pixels.width, height = pixels.height;
   for (std::size_t y = 1; y + 1 < height; ++y)
     for (std::size_t x = 1; x + 1 < width; ++x) {
@@ -51,7 +51,7 @@ Outcome same_within(const Pixel_view& pixels, const Piece_image& truth, const Pi
       bool is_even = true;
       for (std::size_t v = y - 1; v <= y + 1; ++v)
         for (std::size_t u = x - 1; u <= x + 1; ++u)
-          is_even = is_even && truth.pieces[v * width + u] == truth.pieces[i] && !tied[v * width + u];
+          is_even = is_even && truth.pieces[v * width + u] == truth.pieces[i] && tied[v * width + u] == 0;
       if (is_even && image.pieces[i] != truth.pieces[i])
         return Outcome::failed(images::place(pixels, i) + " shows " + images::name(truth.pieces[i]) +
                                ", as all around it, " + images::name(image.pieces[i]) + " by " + method);
@@ -70,7 +70,6 @@ Piece_image by_clip_polygons(const Seen& seen) {
 Outcome run(const Seen& seen) {
   if (!has_small_numbers(seen, 256)) return Outcome::not_applicable();
   const Piece_image truth = seen.truth();
-  const std::vector<bool> tied(truth.tied.begin(), truth.tied.end());
   for (const Image_kernel kernel : {Image_kernel::double_numbers, Image_kernel::float_numbers}) {
     const bool in_floats = kernel == Image_kernel::float_numbers;
     if (in_floats && !has_small_numbers(seen, 8)) break;
@@ -88,15 +87,15 @@ Outcome run(const Seen& seen) {
     for (const Painter_key key : {Painter_key::nearest, Painter_key::farthest}) {
       const Outcome painted = same_within(
           seen.pixels, heedless_painter(seen.scene, seen.pixels, key, Image_kernel::exact, serial()),
-          heedless_painter(seen.scene, seen.pixels, key, kernel, serial()), "a heedless painter" + numbers, tied);
+          heedless_painter(seen.scene, seen.pixels, key, kernel, serial()), "a heedless painter" + numbers, truth.tied);
       if (painted.state != Outcome::State::passed) return painted;
     }
-    const Outcome sorted =
-        same_within(seen.pixels, truth, newell(seen.scene, seen.pixels, kernel, serial()), "newell" + numbers, tied);
+    const Outcome sorted = same_within(seen.pixels, truth, newell(seen.scene, seen.pixels, kernel, serial()),
+                                       "newell" + numbers, truth.tied);
     if (sorted.state != Outcome::State::passed) return sorted;
     const Outcome clipped =
         same_within(seen.pixels, truth, in_floats ? by_clip_polygons<float>(seen) : by_clip_polygons<double>(seen),
-                    "clip polygons" + numbers, tied);
+                    "clip polygons" + numbers, truth.tied);
     if (clipped.state != Outcome::State::passed) return clipped;
   }
   return {};

@@ -35,15 +35,16 @@ inline Conic canonical_conic(Conic c) {
 }
 inline Conic canonical_line(const Plane_line& line) { return canonical_conic({line[0], line[1], line[2], 0, 0, 0}); }
 
-/// Whether the form of three variables that is the conic's has one strict sign: then it has no real point.
-inline bool is_definite(const Conic& c) {
-  const Integer a = 2 * c[3], b = c[4], d = 2 * c[5], e = c[1], f = c[2], g = 2 * c[0];  // ((a b e) (b d f) (e f g))
-  const Integer minor = a * d - b * b, all = a * (d * g - f * f) - b * (b * g - f * e) + e * (b * f - d * e);
-  return sgn(minor) > 0 && sgn(a) * sgn(all) > 0;
-}
-inline bool is_smooth(const Conic& c) {
+/// Of the form of three variables that is twice the conic's, ((a b e) (b d f) (e f g)).
+inline Integer determinant_of(const Conic& c) {
   const Integer a = 2 * c[3], b = c[4], d = 2 * c[5], e = c[1], f = c[2], g = 2 * c[0];
-  return a * (d * g - f * f) - b * (b * g - f * e) + e * (b * f - d * e) != 0;
+  return a * (d * g - f * f) - b * (b * g - f * e) + e * (b * f - d * e);
+}
+inline bool is_smooth(const Conic& c) { return determinant_of(c) != 0; }
+/// Whether that form has one strict sign: then the conic has no real point.
+inline bool is_definite(const Conic& c) {
+  const Integer minor = 4 * c[3] * c[5] - c[4] * c[4];
+  return sgn(minor) > 0 && sgn(c[3]) * sgn(determinant_of(c)) > 0;
 }
 
 /// What must be found of f g, of f^2 - n g^2, and of any conic that is smooth.

@@ -442,6 +442,16 @@ TEST(Progress, of_an_operation_goes_on_to_its_end_and_what_it_throws_ends_it_any
   EXPECT_THROW(run_with_threads(4, [&] { set_operation(operands, options); }), Enough);
 }
 
+/// What is wrong with a certificate; empty: nothing.
+std::string said_of(const std::string& text) {
+  try {
+    read_solid_certificate(text);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
   const std::vector<Polygon_soup> solids{box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 2})};
   const Operands operands(solids);
@@ -472,14 +482,6 @@ TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
   broken.replace(broken.find("\"vertices\": [0"), 14, "\"vertices\": [9999");
   EXPECT_THROW(read_solid_certificate(broken), std::invalid_argument);
   // A key twice; and a large point that is named without end.
-  const auto said_of = [](const std::string& what) -> std::string {
-    try {
-      read_solid_certificate(what);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
-  };
   std::string twice = text.str();
   twice.replace(twice.find("\"fate\": "), 0, "\"fate\": \"kept\", ");
   EXPECT_NE(said_of(twice).find("the key \"fate\" is there twice"), std::string::npos) << said_of(twice);
@@ -493,14 +495,6 @@ TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
 }
 
 TEST(Certificates, of_numbers_that_do_not_fit_are_refused_and_errors_are_one_line) {
-  const auto said_of = [](const std::string& text) -> std::string {
-    try {
-      read_solid_certificate(text);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
-  };
   const auto with_winding = [&](const std::string& number) {
     return said_of(R"({"format": "sightline boolean 1", "operation": "union", "inside": "positive", "operands": 1,
                        "points": [["0","0","0"],["1","0","0"],["0","1","0"]], "fragments": [{"parts": [[0,0,0,0]],
