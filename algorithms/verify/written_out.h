@@ -2,7 +2,7 @@
 // How much memory points take that a certificate names by numbers: few numbers must not become much, of points with
 // many digits that are named often.
 
-#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
 #include <algorithm>
 #include <cstddef>
