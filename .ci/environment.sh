@@ -94,7 +94,7 @@ compile_jobs() {
   echo "$processors"
 }
 
-# build FOLDER "TARGETS" [CMAKE OPTIONS]: configures and builds, from nothing in the least time: twenty sources of the libraries and the
+# build FOLDER "TARGETS" [CMAKE OPTIONS]: configures and builds, from nothing in the least time: many sources of the libraries and the
 # program at once. Who changes them builds by a preset.
 build() {
   local folder=$1 targets option

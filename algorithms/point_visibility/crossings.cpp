@@ -16,7 +16,7 @@ namespace sightline {
 
 namespace {
 
-using Planes = std::pair<std::uint32_t, std::uint32_t>;  // by id, the lower one first
+using Two_planes = std::pair<std::uint32_t, std::uint32_t>;  // by id, the lower one first
 
 /// The pairs of pieces that have boxes with a point in common, of each at least one that is wanted; each pair once or
 /// more.
@@ -180,7 +180,7 @@ class Crossing_search {
 
   // ---- Lines, and the chords that pieces have of them
 
-  void add_chords(const Planes& planes, Reached& reached) {
+  void add_chords(const Two_planes& planes, Reached& reached) {
     for (std::vector<Reaching>& side : reached) {
       std::sort(side.begin(), side.end());
       side.erase(std::unique(side.begin(), side.end()), side.end());
@@ -328,7 +328,7 @@ class Crossing_search {
   Predicates predicates_;
   Predicate_counts counts_;
   std::vector<std::uint32_t> in_plane_;  // pieces, by plane
-  std::map<Planes, Reached> reached_;
+  std::map<Two_planes, Reached> reached_;
   std::map<Line_name, std::vector<Chord>> chords_;
   std::vector<Crossing> found_;
 };

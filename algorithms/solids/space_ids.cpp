@@ -16,7 +16,7 @@ Residue reduced(std::uint64_t n) {
   n = (n & prime) + (n >> 31);
   return n >= prime ? n - prime : n;
 }
-Residue minus(Residue a, Residue b) { return a >= b ? a - b : a + prime - b; }
+Residue difference(Residue a, Residue b) { return a >= b ? a - b : a + prime - b; }
 /// Pre: a, b < prime: one step leaves less than twice the prime.
 Residue times(Residue a, Residue b) {
   const std::uint64_t product = a * b, n = (product & prime) + (product >> 31);
@@ -97,7 +97,7 @@ Residues<4> residues_of_plane(const Predicates& predicates, std::uint32_t id) {
 }
 
 Residue minor(const Residues<4>& f, const Residues<4>& g, std::size_t i, std::size_t j) {
-  return minus(times(f[i], g[j]), times(f[j], g[i]));
+  return difference(times(f[i], g[j]), times(f[j], g[i]));
 }
 
 Residues<4> residues_of_vertex(const Predicates& predicates, const Vertex& v) {
@@ -113,7 +113,7 @@ Residues<4> residues_of_vertex(const Predicates& predicates, const Vertex& v) {
       return reduced(times(f[i], minor(g, h, j, k)) + times(f[k], minor(g, h, i, j)) + prime -
                      times(f[j], minor(g, h, i, k)));
     };
-    row = {minus(0, three(1, 2, 3)), three(0, 2, 3), minus(0, three(0, 1, 3)), three(0, 1, 2)};
+    row = {difference(0, three(1, 2, 3)), three(0, 2, 3), difference(0, three(0, 1, 3)), three(0, 1, 2)};
   }
   return normalize(row) ? row : residues_of_primitive(predicates.homogeneous(v));
 }

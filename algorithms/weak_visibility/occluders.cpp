@@ -106,35 +106,48 @@ bool misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, doubl
 
 /// A segment in the coordinates of boxes, for proposals.
 struct Segment_of_boxes {
-  Triple from, inverse;  // of its length along each axis
-  std::array<bool, 3> is_flat;
-  double slack;
+  Triple above, below;  // its first end, by a little
+  Triple inverse;       // of its length along each axis
 
   Segment_of_boxes(const Triple& p, const Triple& q, double to_boxes) {
-    Triple along;
+    Triple from, along;
     for (std::size_t k = 0; k < 3; ++k) {
       from[k] = p[k] * to_boxes;
       along[k] = (q[k] - p[k]) * to_boxes;
-      inverse[k] = 1 / along[k];
-      is_flat[k] = !std::isfinite(inverse[k]);
+      inverse[k] = std::clamp(1 / along[k], -0x1p900, 0x1p900);  // where it is flat, too
     }
-    slack = 1e-12 * (sightline::size(from) + sightline::size(along));
+    const double slack = 1e-12 * (sightline::size(from) + sightline::size(along));
+    for (std::size_t k = 0; k < 3; ++k) {
+      above[k] = from[k] + slack;
+      below[k] = from[k] - slack;
+    }
   }
   bool is_near(const Piece_boxes::Box& box) const {
     double enter = 0, leave = 1;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double low = box.low[k] - slack - from[k], high = box.high[k] + slack - from[k];
-      if (is_flat[k]) {
-        if (low > 0 || high < 0) return false;
-        continue;
-      }
-      const double a = low * inverse[k], b = high * inverse[k];
+      const double a = (box.low[k] - above[k]) * inverse[k], b = (box.high[k] - below[k]) * inverse[k];
       enter = std::max(enter, std::min(a, b));
       leave = std::min(leave, std::max(a, b));
     }
     return enter <= leave;
   }
 };
+
+/// Coordinates whose ways have a determinant of less than 128 bits.
+constexpr int most_small_bits = 40;
+using Small_point = std::array<std::int64_t, 3>;
+
+std::optional<Small_point> small_point(const Near_point& p) {
+  if (p.exact[3] != 1) return std::nullopt;
+  Small_point small;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!fits_int64(p.exact[k])) return std::nullopt;
+    small[k] = p.exact[k].get_si();
+    constexpr std::int64_t most = std::int64_t{1} << most_small_bits;
+    if (small[k] < -most || small[k] > most) return std::nullopt;
+  }
+  return small;
+}
 
 bool same_plane(const Near_plane& g, const Near_plane& h) {
   for (std::size_t i = 0; i < 4; ++i)
@@ -199,6 +212,26 @@ int Occluders::side_of(std::uint32_t piece, const Near_plane& h) const {
     behind |= s < 0;
   }
   return front && behind ? both_sides : front ? 1 : behind ? -1 : 0;
+}
+
+std::optional<int> Occluders::small_side(const Near_point& p, const Near_point& q,
+                                         const std::array<std::uint32_t, 2>& points) const {
+  if (scene_->points().bits() > most_small_bits) return std::nullopt;
+  const std::optional<Small_point> from = small_point(p), to = small_point(q);
+  if (!from || !to) return std::nullopt;
+  // The determinant of the ways from p to q, from a to b and from p to a.
+  std::array<__int128, 3> way, along, between;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int64_t a = scene_->points().small(points[0], static_cast<int>(k)),
+                       b = scene_->points().small(points[1], static_cast<int>(k));
+    way[k] = (*to)[k] - (*from)[k];
+    along[k] = b - a;
+    between[k] = a - (*from)[k];
+  }
+  const __int128 side = way[0] * (along[1] * between[2] - along[2] * between[1]) +
+                        way[1] * (along[2] * between[0] - along[0] * between[2]) +
+                        way[2] * (along[0] * between[1] - along[1] * between[0]);
+  return side > 0 ? 1 : side < 0 ? -1 : 0;
 }
 
 std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Near_polygon& t) const {
@@ -284,20 +317,26 @@ std::vector<std::uint32_t> Occluders::near_segment(const Triple& p, const Triple
   return found;
 }
 
-std::optional<std::uint32_t> Occluders::on_segment(const Triple& p, const Triple& q,
-                                                   const std::function<bool(std::uint32_t)>& accept) const {
-  const Segment_of_boxes segment(p, q, frame_.to_boxes());
-  const Pluecker pluecker = pluecker_of_pair(p, q);
+std::optional<std::uint32_t> Occluders::on_segment(const Segment& segment,
+                                                   const std::function<bool(std::uint32_t)>& accept,
+                                                   std::span<const Segment> beside) const {
+  std::vector<Segment_of_boxes> all{{segment[0], segment[1], frame_.to_boxes()}};
+  if (entries_.size() == planes_.size())  // else a box may hold but a part of a piece
+    for (const Segment& other : beside) all.emplace_back(other[0], other[1], frame_.to_boxes());
+  const auto is_near_all = [&](const Piece_boxes::Box& box) {
+    return std::all_of(all.begin(), all.end(), [&](const Segment_of_boxes& one) { return one.is_near(box); });
+  };
+  const Pluecker pluecker = pluecker_of_pair(segment[0], segment[1]);
   std::optional<std::uint32_t> found;
-  each_box([&](const Piece_boxes::Box& box) { return !found && segment.is_near(box); },
+  each_box([&](const Piece_boxes::Box& box) { return !found && is_near_all(box); },
            [&](const Entry& entry) {
              if (found) return;
              const std::array<double, 4>& h = entry.plane;
-             const double at_p = likely_value(h, p), at_q = likely_value(h, q);
+             const double at_p = likely_value(h, segment[0]), at_q = likely_value(h, segment[1]);
              if ((at_p > 0) == (at_q > 0)) return;
              const double sense = at_p > 0 ? 1 : -1;
-             const std::span<const Pluecker> all = edges_of(entry);
-             if (std::all_of(all.begin(), all.end(),
+             const std::span<const Pluecker> edges = edges_of(entry);
+             if (std::all_of(edges.begin(), edges.end(),
                              [&](const Pluecker& edge) { return sense * dot(pluecker, edge) > 0; }) &&
                  accept(entry.piece))
                found = entry.piece;
@@ -307,8 +346,12 @@ std::optional<std::uint32_t> Occluders::on_segment(const Triple& p, const Triple
 
 bool Occluders::blocks_all(std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
                            std::span<const Pluecker> pairs) const {
+  // 1. Most do not, and doubles tell: a line passes outside of an edge.
+  if (lets_pass(piece, source, target, pairs)) return false;
+  // 2. Its plane is between the polygons.
   const int front = side(planes_[piece], source);
   if (front == 0 || front == both_sides || side(planes_[piece], target) != -front) return false;
+  // 3. On no pair of corners does a line pass an edge outside.
   const std::span<const Triple> polygon = corners(piece);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Ends of_edge = ends(sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()]));
@@ -319,11 +362,37 @@ bool Occluders::blocks_all(std::uint32_t piece, const Near_polygon& source, cons
                    bound = side_error(ends(sightline::size(p.near), sightline::size(q.near)), of_edge);
       if (height < -bound) return false;
       if (height > bound) continue;
+      if (const std::optional<int> side = small_side(p, q, edge_points(piece, i))) {
+        if (front * *side < 0) return false;
+        continue;
+      }
       if (!edge) edge = exact_pluecker_of(edge_points(piece, i));
       if (front * sgn(sightline::dot(pluecker_of_pair(p.exact, q.exact), *edge)) < 0) return false;
     }
   }
   return true;
+}
+
+bool Occluders::lets_pass(std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
+                          std::span<const Pluecker> pairs) const {
+  int front = 0;  // if the plane is between them at all
+  for (std::size_t i = 0; i < source.size() && front == 0; ++i) front = likely_side(planes_[piece], source[i].near);
+  if (front == 0) return false;
+  const auto reach = [](const Near_polygon& of) {
+    double most = 0;
+    for (const Near_point& p : of) most = std::max(most, sightline::size(p.near));
+    return most;
+  };
+  const Ends of_pairs = ends(reach(source), reach(target));
+  const std::span<const Triple> polygon = corners(piece);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const double bound =
+        side_error(of_pairs, ends(sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()])));
+    const Pluecker& edge = edges(piece)[i];
+    for (const Pluecker& pair : pairs)
+      if (front * dot(pair, edge) < -bound) return true;
+  }
+  return false;
 }
 
 std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple& direction) const {

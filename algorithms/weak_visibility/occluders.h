@@ -49,6 +49,11 @@ class Occluders {
     return pluecker_of_edge(grid_point(points[0]), grid_point(points[1]));
   }
 
+  /// The sign of side(p, q, e) for the line e from one point of the scene to another one, where all four are integers
+  /// of at most 40 bits; else nothing. Exact: yes. Proof: P-70
+  std::optional<int> small_side(const Near_point& p, const Near_point& q,
+                                const std::array<std::uint32_t, 2>& points) const;
+
   /// The pieces that may meet a segment between the two polygons: those that no plane beside both of them, nor a box,
   /// keeps away; by rank. In doubles, for proposals.
   std::vector<std::uint32_t> near_shaft(const Near_polygon& s, const Near_polygon& t) const;
@@ -59,10 +64,16 @@ class Occluders {
   /// that it passes outside an edge, by more than `margin` of the plane's value or the edge's. In doubles, for
   /// proposals.
   std::vector<std::uint32_t> near_segment(const Triple& p, const Triple& q, double margin) const;
-  /// Of the pieces that the segment from p to q crosses, inside all of their edges, the first one that is accepted. In
-  /// doubles, for proposals.
-  std::optional<std::uint32_t> on_segment(const Triple& p, const Triple& q,
-                                          const std::function<bool(std::uint32_t)>& accept) const;
+  using Segment = std::array<Triple, 2>;
+  /// Of the pieces that a segment crosses, inside all of their edges, the first one that is accepted; only in boxes
+  /// that the segments `beside` it meet, too. In doubles, for proposals.
+  std::optional<std::uint32_t> on_segment(const Segment& segment, const std::function<bool(std::uint32_t)>& accept,
+                                          std::span<const Segment> beside = {}) const;
+  /// Those from either of two points to either of two others: what blocks all lines between their surroundings is in
+  /// boxes that all four meet.
+  static std::array<Segment, 4> segments_between(const Segment& from, const Segment& to) {
+    return {{{from[0], to[0]}, {from[1], to[1]}, {from[0], to[1]}, {from[1], to[0]}}};
+  }
 
   /// Whether one piece blocks all lines from the inside of a source to that of a target: its plane is between them, and
   /// on no pair of corners does a line pass an edge outside. `pairs`: of the corners, those of the target next to each
@@ -110,6 +121,10 @@ class Occluders {
 
   bool meets(std::uint32_t piece, const Near_point& p, const Near_point& q, const Near_plane& of_p,
              const Near_plane& of_q, const Exact_pluecker& pair, const Pluecker& near_pair) const;
+
+  /// Whether doubles tell that such a line passes outside of an edge, or that the plane is not between them.
+  bool lets_pass(std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
+                 std::span<const Pluecker> pairs) const;
 
   const Scene* scene_;
   Near_frame frame_;

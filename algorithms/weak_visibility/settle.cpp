@@ -183,7 +183,7 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
     std::vector<Weakly_visible::Pair> pairs;  // those that stay open, or the one with a sightline
     Event_counters counters;
   };
-  if (options.out_of_time && options.out_of_time()) return {};
+  if (found.open.empty() || (options.out_of_time && options.out_of_time())) return {};
   // 1. The pairs of each face.
   std::vector<Settled> faces;
   for (Weakly_visible::Pair& pair : found.open) {

@@ -68,6 +68,7 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
   for_each_face(pieces, first, options.threads, options.progress, decide);
 
   Weakly_visible all;
+  all.pairs.reserve(first.size());
   for (std::size_t f = 0; f < first.size(); ++f) {
     if (!is_wanted(f)) continue;
     Result& result = results[f];

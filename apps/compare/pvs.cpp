@@ -212,7 +212,7 @@ Screen_sizes sizes_alone(const Json& sample, const Cell_sights& sights, const Ce
 
 /// What draws a face as it is seen, the largest part of it in the middle, a twentieth of the picture wide unless that
 /// took more than 90 degrees.
-std::string drawing_of(const std::string& scene, const Sight& sight) {
+std::string how_to_draw(const std::string& scene, const Sight& sight) {
   constexpr double degree = std::numbers::pi / 180;
   const double field = std::clamp(20 * sight.seen.width / degree, least_field, 90.0);
   std::string eye, look;
@@ -241,7 +241,7 @@ Json sightlines_json(const Cells_question& question, const std::string& scene, c
                    {"to", point_json(sight.line.to)},
                    {"through", leaves_along(tree, sight.line.from, sight.line.to)},
                    {"pixels", sight.seen.pixels},
-                   {"draw", drawing_of(scene, sight)}});
+                   {"draw", how_to_draw(scene, sight)}});
   return all;
 }
 

@@ -12,8 +12,8 @@
 
 namespace sightline::app {
 
-Grouped_polygons drawing_of(const Level_cells& level, const Visibility_table& table,
-                            const std::vector<Cell_id>& cells) {
+Grouped_polygons drawing_of_table(const Level_cells& level, const Visibility_table& table,
+                                  const std::vector<Cell_id>& cells) {
   const Scene& scene = level.scene();
   Grouped_polygons polygons;
   const std::uint32_t hidden = polygons.add_group("hidden", drawing_colours::hidden),

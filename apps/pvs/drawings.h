@@ -10,7 +10,8 @@
 namespace sightline::app {
 
 /// The scene's pieces in groups "visible", "hidden" and "undecided", and cells in groups of their own.
-Grouped_polygons drawing_of(const Level_cells& level, const Visibility_table& table, const std::vector<Cell_id>& cells);
+Grouped_polygons drawing_of_table(const Level_cells& level, const Visibility_table& table,
+                                  const std::vector<Cell_id>& cells);
 
 /// The faces that look into cells that are asked about, from their fronts, so that one looks into rooms, and the cells.
 void draw(const Pvs_arguments& arguments, const Polygon_soup& soup, const Level_cells& level,

@@ -221,7 +221,7 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   if (arguments.resume && facts.is_decided()) maker.remove_kept();
   if (!arguments.svg.empty()) draw(arguments, soup, level, table);
   if (!arguments.obj.empty() || !arguments.mesh.empty())
-    write_drawings(arguments.obj, arguments.mesh, drawing_of(level, table, arguments.show));
+    write_drawings(arguments.obj, arguments.mesh, drawing_of_table(level, table, arguments.show));
   if (!arguments.html.empty()) write_page(arguments, level, table);
   const bool all_proved = arguments.certificates.empty() || write_certificates(arguments, level, table, limit, ranks);
   const Exit exit = !facts.is_decided() || !all_proved ? Exit::undecided : Exit::done;

@@ -15,8 +15,8 @@ class Table {
  public:
   explicit Table(const Unit& unit, std::uint64_t seed) : unit_(unit), seed_(seed) {}
 
-  void add(const Json& name, const Verdict& v, std::uint64_t seed, std::size_t faces) {
-    if (v.kind == Verdict::not_asked) return;
+  void add(const Json& name, const Report_verdict& v, std::uint64_t seed, std::size_t faces) {
+    if (v.kind == Report_verdict::not_asked) return;
     const report::Contender who{unit_.question->name, method_of(name), name["kernel"].get<std::string>()};
     auto found = std::find_if(lines_.begin(), lines_.end(), [&](const Line& line) { return line.row.who == who; });
     if (found == lines_.end()) {
@@ -32,18 +32,18 @@ class Table {
     report::Row& row = found->row;
     ++row.cases;
     row.faces += static_cast<double>(faces);
-    row.wrong += v.kind == Verdict::wrong;
-    row.abstained += v.kind == Verdict::abstained;
-    row.crashed += v.kind == Verdict::crashed;
-    row.stopped += v.kind == Verdict::stopped;
+    row.wrong += v.kind == Report_verdict::wrong;
+    row.abstained += v.kind == Report_verdict::abstained;
+    row.crashed += v.kind == Report_verdict::crashed;
+    row.stopped += v.kind == Report_verdict::stopped;
     row.broken += v.broken;
-    if (v.kind == Verdict::crashed || v.kind == Verdict::stopped) return;
+    if (v.kind == Report_verdict::crashed || v.kind == Report_verdict::stopped) return;
     found->seconds.push_back(v.seconds);
     row.worst_seconds = std::max(row.worst_seconds, v.seconds);
     row.peak_bytes = std::max(row.peak_bytes, v.peak_bytes);
     row.error += v.error;
     row.worst_error = std::max(row.worst_error, v.error);
-    if (v.kind == Verdict::wrong && (!row.smallest || faces < row.smallest->faces))
+    if (v.kind == Report_verdict::wrong && (!row.smallest || faces < row.smallest->faces))
       row.smallest = report::Wrong_case{faces, seed, v.error};
   }
 

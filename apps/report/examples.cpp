@@ -61,7 +61,7 @@ class Witness {
   }
 
   /// The answer to a case, and the contender's name as its trial has it.
-  Verdict ask(const std::shared_ptr<const Judge_case>& asked, Json& name) const {
+  Report_verdict ask(const std::shared_ptr<const Judge_case>& asked, Json& name) const {
     if (program_ != nullptr) {
       const Contestant contestant = contestant_of(*program_, asked, row_.smallest->seed);
       name = contestant.name;
@@ -137,7 +137,7 @@ std::string words_of_nothing_marked(const std::string& question) {
 }
 
 /// Draws a wrong case, with the line that refutes the answer where one does, and tells of it.
-void explain_case(const Judge_case& asked, const Verdict& verdict, report::Example& example) {
+void explain_case(const Judge_case& asked, const Report_verdict& verdict, report::Example& example) {
   judge::Query query = asked.query;
   judge::Grade grade;
   judge::Explanation why;
@@ -177,14 +177,14 @@ std::optional<report::Example> example_of(const report::Row& row, const Judge_ca
   };
   const bool repeats = repeats_a_point(asked.soup);
   Json name;
-  Verdict last;
+  Report_verdict last;
   const auto fails = [&](const generate::Posed_scene& smaller) {
     try {
       const std::shared_ptr<const Judge_case> other = case_of_smaller(smaller);
       if (!other->not_asked.empty() || !other->as_given || (!repeats && repeats_a_point(other->soup))) return false;
-      const Verdict verdict = witness.ask(other, name);
-      if (verdict.kind == Verdict::wrong) last = verdict;
-      return verdict.kind == Verdict::wrong;
+      const Report_verdict verdict = witness.ask(other, name);
+      if (verdict.kind == Report_verdict::wrong) last = verdict;
+      return verdict.kind == Report_verdict::wrong;
     } catch (const std::exception&) {
       return false;  // a scene that cannot be asked about
     }

@@ -25,7 +25,7 @@ Compare_arguments order_arguments(const Judge_case& asked, const Report_effort&)
   a.max_fragments = 600;
   return a;
 }
-Verdict order_judged(const Json& row, std::size_t) {
+Report_verdict order_judged(const Json& row, std::size_t) {
   const Json& e = row["errors"];
   double error =
       std::max({e["area_lost"].get<double>(), e["area_overlapping"].get<double>(), e["area_outside"].get<double>()});
@@ -35,7 +35,7 @@ Verdict order_judged(const Json& row, std::size_t) {
     wrong = wrong || pairs > 0;
     error = std::max(error, pairs);
   }
-  return {wrong ? Verdict::wrong : Verdict::right, error};
+  return {wrong ? Report_verdict::wrong : Report_verdict::right, error};
 }
 std::string order_again(const Compare_arguments& a, const Json& name) {
   return fmt::format("order --eye={} --kernels {}", a.eye, name["kernel"].get<std::string>());
@@ -51,13 +51,13 @@ Compare_arguments see_arguments(const Judge_case& asked, const Report_effort& ef
   a.bits = effort.bits;
   return a;
 }
-Verdict see_judged(const Json& row, std::size_t) {
+Report_verdict see_judged(const Json& row, std::size_t) {
   const Json& e = row["errors"];
   constexpr double rounding = 1e-12;  // of sums of areas in doubles
   const double error = e["wrong_area"].get<double>();
   bool wrong = error > tolerance;
   for (const char* key : {"wrongly_visible", "wrongly_hidden", "not_finite"}) wrong = wrong || e[key] != 0;
-  return {wrong ? Verdict::wrong : Verdict::right, error > rounding ? error : 0};
+  return {wrong ? Report_verdict::wrong : Report_verdict::right, error > rounding ? error : 0};
 }
 std::string see_again(const Compare_arguments& a, const Json& name) {
   const std::string ask = "see --eye=" + a.eye;
@@ -78,10 +78,11 @@ Compare_arguments render_arguments(const Judge_case& asked, const Report_effort&
   a.view.canvas.size = fmt::format("{0}x{0}", effort.image_size);
   return a;
 }
-Verdict render_judged(const Json& row, std::size_t) {
+Report_verdict render_judged(const Json& row, std::size_t) {
   const Json& e = row["errors"];
-  if (e.contains("off")) return {e["off"] != 0 ? Verdict::wrong : Verdict::right, e["off_share"].get<double>()};
-  return {e["wrong"] != 0 ? Verdict::wrong : Verdict::right, e["wrong_share"].get<double>()};
+  if (e.contains("off"))
+    return {e["off"] != 0 ? Report_verdict::wrong : Report_verdict::right, e["off_share"].get<double>()};
+  return {e["wrong"] != 0 ? Report_verdict::wrong : Report_verdict::right, e["wrong_share"].get<double>()};
 }
 std::string render_again(const Compare_arguments& a, const Json& name) {
   return fmt::format("render --eye={} --size {} --kernels {}{}", a.eye, a.view.canvas.size,
@@ -100,12 +101,12 @@ Compare_arguments weak_arguments(const Judge_case& asked, const Report_effort& e
   a.rays = effort.weak_rays;
   return a;
 }
-Verdict weak_judged(const Json& row, std::size_t faces) {
+Report_verdict weak_judged(const Json& row, std::size_t faces) {
   const Json& e = row["errors"];
   const double wrong = e["wrongly_visible"].get<double>() + e["wrongly_hidden"].get<double>();
-  return {wrong > 0            ? Verdict::wrong
-          : e["undecided"] > 0 ? Verdict::abstained
-                               : Verdict::right,
+  return {wrong > 0            ? Report_verdict::wrong
+          : e["undecided"] > 0 ? Report_verdict::abstained
+                               : Report_verdict::right,
           wrong / std::max(1.0, static_cast<double>(faces))};
 }
 std::string weak_again(const Compare_arguments& a, const Json& name) {
@@ -121,10 +122,10 @@ Compare_arguments trace_arguments(const Judge_case&, const Report_effort& effort
   a.random = effort.rays;
   return a;
 }
-Verdict trace_judged(const Json& row, std::size_t) {
+Report_verdict trace_judged(const Json& row, std::size_t) {
   const Json& e = row["errors"];
   const double wrong = e["missed"].get<double>() + e["invented"].get<double>() + e["wrong_face"].get<double>();
-  return {wrong > 0 ? Verdict::wrong : Verdict::right, wrong / std::max(1.0, e["rays"].get<double>())};
+  return {wrong > 0 ? Report_verdict::wrong : Report_verdict::right, wrong / std::max(1.0, e["rays"].get<double>())};
 }
 std::string trace_again(const Compare_arguments& a, const Json&) { return fmt::format("trace --random {}", a.random); }
 
@@ -135,9 +136,9 @@ Compare_arguments cutset_arguments(const Judge_case&, const Report_effort& effor
   a.random = effort.views;
   return a;
 }
-Verdict cutset_judged(const Json& row, std::size_t) {
+Report_verdict cutset_judged(const Json& row, std::size_t) {
   const Json& e = row["errors"];
-  return {e["wrong_frames"] != 0 ? Verdict::wrong : Verdict::right,
+  return {e["wrong_frames"] != 0 ? Report_verdict::wrong : Report_verdict::right,
           e["wrong_frames"].get<double>() / std::max(1.0, e["frames"].get<double>())};
 }
 std::string cutset_again(const Compare_arguments& a, const Json&) {
@@ -153,10 +154,10 @@ Compare_arguments pvs_arguments(const Judge_case&, const Report_effort& effort) 
   a.rays = effort.weak_rays;
   return a;
 }
-Verdict pvs_judged(const Json& row, std::size_t) {
+Report_verdict pvs_judged(const Json& row, std::size_t) {
   const Json& e = row["errors"];
   const double wrong = e["wrongly_visible"].get<double>() + e["wrongly_hidden"].get<double>();
-  return {wrong > 0 ? Verdict::wrong : Verdict::right, wrong / std::max(1.0, row["pairs"].get<double>())};
+  return {wrong > 0 ? Report_verdict::wrong : Report_verdict::right, wrong / std::max(1.0, row["pairs"].get<double>())};
 }
 std::string pvs_again(const Compare_arguments&, const Json& name) {
   return name.contains("rays") ? fmt::format("pvs --rays {}", name["rays"].get<std::size_t>()) : "pvs --rays 100";
@@ -169,9 +170,9 @@ Compare_arguments boolean_arguments(const Judge_case& asked, const Report_effort
   a.solids = asked.query;
   return a;
 }
-Verdict boolean_judged(const Json& row, std::size_t) {
+Report_verdict boolean_judged(const Json& row, std::size_t) {
   const Json& e = row["errors"];
-  return {e["wrong"] == true ? Verdict::wrong : Verdict::right, e["share"].get<double>()};
+  return {e["wrong"] == true ? Report_verdict::wrong : Report_verdict::right, e["share"].get<double>()};
 }
 std::string boolean_again(const Compare_arguments&, const Json&) {
   return "--questions boolean --cases 1 --reduce 1 --json -";
@@ -231,26 +232,28 @@ std::string method_of(const Json& name) {
   return method;
 }
 
-Verdict verdict_of(const Report_question& question, const Trial& trial, const Contestant& contestant, std::size_t faces,
-                   const Report_limits& limits) {
+Report_verdict verdict_of(const Report_question& question, const Trial& trial, const Contestant& contestant,
+                          std::size_t faces, const Report_limits& limits) {
   // What judges the answer takes its time too, beside the method.
   const Json row = ask_apart(contestant, 4 * limits.seconds + 5, limits.bytes);
   const std::string status = row["status"].get<std::string>();
   if (status.starts_with("left out")) return {};
-  if (status == "timed out" || status == "out of memory") return {Verdict::stopped};
+  if (status == "timed out" || status == "out of memory") return {Report_verdict::stopped};
   if (status.starts_with("error: --program")) throw Usage_error(status.substr(7));  // it cannot be started
   const bool promises = claims_to_be_exact(row);
-  if (status != "done") return {.kind = Verdict::crashed, .broken = promises};
-  Verdict verdict = row["kernel"] == "program"
-                        ? Verdict{static_cast<Verdict::Kind>(row["kind"].get<int>()), row["error"].get<double>()}
-                        : question.judged(row, faces);
+  if (status != "done") return {.kind = Report_verdict::crashed, .broken = promises};
+  Report_verdict verdict =
+      row["kernel"] == "program"
+          ? Report_verdict{static_cast<Report_verdict::Kind>(row["kind"].get<int>()), row["error"].get<double>()}
+          : question.judged(row, faces);
   verdict.seconds = row["seconds"].get<double>() + row.value("prepare", 0.0);
   verdict.peak_bytes = row["peak_bytes"].get<std::uint64_t>();
   if (row.contains("said")) verdict.said = row["said"];
   if (row.contains("wrong_faces")) verdict.wrong_faces = row["wrong_faces"];
   verdict.broken = promises && row.contains("errors") && !trial.right(row);
-  if (verdict.broken) verdict.kind = Verdict::wrong;
-  if (verdict.kind != Verdict::not_asked && verdict.seconds > limits.seconds) verdict.kind = Verdict::stopped;
+  if (verdict.broken) verdict.kind = Report_verdict::wrong;
+  if (verdict.kind != Report_verdict::not_asked && verdict.seconds > limits.seconds)
+    verdict.kind = Report_verdict::stopped;
   return verdict;
 }
 
@@ -309,14 +312,14 @@ Contestant contestant_of(const Report_program& program, std::shared_ptr<const Ju
             const auto kind = [&] {
               switch (judged.mark) {
                 case judge::Mark::crashed:
-                case judge::Mark::invalid: return Verdict::crashed;
+                case judge::Mark::invalid: return Report_verdict::crashed;
                 case judge::Mark::out_of_memory:
-                case judge::Mark::timed_out: return Verdict::stopped;
-                case judge::Mark::wrong: return Verdict::wrong;
-                case judge::Mark::abstained: return Verdict::abstained;
+                case judge::Mark::timed_out: return Report_verdict::stopped;
+                case judge::Mark::wrong: return Report_verdict::wrong;
+                case judge::Mark::abstained: return Report_verdict::abstained;
                 case judge::Mark::right: break;
               }
-              return Verdict::right;
+              return Report_verdict::right;
             }();
             const bool of_rays = asked->query.question == judge::Question::trace,
                        of_solids = asked->query.question == judge::Question::boolean;

@@ -31,7 +31,7 @@ struct Report_limits {
 };
 
 /// How wrong an answer is.
-struct Verdict {
+struct Report_verdict {
   enum Kind { right, wrong, abstained, crashed, stopped, not_asked } kind = not_asked;
   double error = 0;  ///< the share of the answer that is wrong, as the question has it
   double seconds = 0;
@@ -50,7 +50,7 @@ struct Report_question {
   Compare_arguments (*arguments)(const Judge_case& asked, const Report_effort& effort);
   std::unique_ptr<Trial> (*trial)(const Compare_arguments& arguments, const Polygon_soup& soup);
   /// The share of an answer that is wrong, and whether it is wrong at all. Pre: its status is done.
-  Verdict (*judged)(const Json& row, std::size_t faces);
+  Report_verdict (*judged)(const Json& row, std::size_t faces);
   /// What asks it of one contender again, after the scene: the options of `compare`, or, where they begin with a dash,
   /// of this command.
   std::string (*again)(const Compare_arguments& arguments, const Json& name);
@@ -75,8 +75,8 @@ double solid_error(const judge::Grade& grade);
 std::string method_of(const Json& name);
 
 /// Asks one contender, apart.
-Verdict verdict_of(const Report_question& question, const Trial& trial, const Contestant& contestant, std::size_t faces,
-                   const Report_limits& limits);
+Report_verdict verdict_of(const Report_question& question, const Trial& trial, const Contestant& contestant,
+                          std::size_t faces, const Report_limits& limits);
 
 /// Somebody's program as a contender: a word that names it, and how to ask it.
 struct Report_program {

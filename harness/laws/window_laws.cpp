@@ -129,7 +129,9 @@ Rational twice_area_of(const Polygons& polygons) {
   return sum;
 }
 
-std::string point_name(const Image_point& p) { return "(" + to_string(p[0]) + ", " + to_string(p[1]) + ")"; }
+std::string point_name(const Image_point& p) {
+  return "(" + sightline::to_string(p[0]) + ", " + sightline::to_string(p[1]) + ")";
+}
 
 /// What is wrong with a result that is to hold the cells of a winding number 1 in the polygons and of `in_window` in
 /// the window; or nothing.
@@ -144,7 +146,8 @@ std::string flaw_of_result(const Polygons& result, const std::vector<Slab_cell>&
     if (2 * area(polygon) != twice_area_of({polygon})) return "has another area than area() says";
   }
   if (twice_area_of(result) != 2 * all)
-    return "has an area of " + to_string(Rational(twice_area_of(result) / 2)) + " instead of " + to_string(all);
+    return "has an area of " + sightline::to_string(Rational(twice_area_of(result) / 2)) + " instead of " +
+           sightline::to_string(all);
   for (const Slab_cell& cell : cells) {
     int holds = 0;
     for (const Image_polygon& polygon : result) {

@@ -278,6 +278,56 @@ TEST(One_piece, blocks_all_up_to_the_edge_of_its_shadow_and_no_further) {
   }
 }
 
+TEST(One_piece, of_so_many_corners_that_several_boxes_hold_it_blocks_all_too) {
+  using weak_scenes::at;
+  using weak_scenes::rectangle;
+  // Along a parabola: no box holds all of it, and of the lines beside the middle one some miss each.
+  std::vector<Exact_point> arc;
+  for (int x = -60; x <= 60; ++x) arc.push_back(at(x, x * x, 2));
+  const Scene scene(
+      weak_scenes::soup_of({weak_scenes::reversed(arc), weak_scenes::reversed(rectangle(-50, 50, 2900, 3500, 4))}));
+  const Occluders occluders(scene);
+  ASSERT_GT(occluders.boxes().chunks().size(), scene.pieces().size());
+  const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, rectangle(-50, 50, 2900, 3500, 0))});
+  EXPECT_EQ(found.visible.size(), 1u);
+  EXPECT_EQ(found.counters.by_one, 1u);
+}
+
+TEST(Small_sides, are_those_of_big_integers_up_to_forty_bits_and_in_planes) {
+  using weak_scenes::at;
+  const Integer most = (Integer(1) << 40) - 1;
+  Random random(17);
+  std::size_t zeros = 0;
+  for (int round = 0; round < 200; ++round) {
+    const bool is_large = round % 2 == 0;
+    const auto coordinate = [&] {
+      const Integer any = is_large && random.chance(1, 2) ? most : Integer(static_cast<unsigned long>(random.below(4)));
+      return random.chance(1, 2) ? any : Integer(-any);
+    };
+    const auto corner = [&] { return at(coordinate(), coordinate(), coordinate()); };
+    // One is kept at the bound, so that the grid has its 40 bits; the triangles need not have an area to be looked at.
+    const Scene scene(
+        weak_scenes::soup_of({{at(most, 0, 0), at(0, most, 0), at(0, 0, most)}, {corner(), corner(), corner()}}));
+    if (scene.pieces().size() < 2) continue;
+    const Occluders occluders(scene);
+    const auto point = [&](const Integer& w) {
+      return near_point(occluders.frame(), {coordinate(), coordinate(), coordinate(), w});
+    };
+    const std::array<std::uint32_t, 2> edge = occluders.edge_points(1, 0);
+    const Near_point p = point(1), q = random.chance(1, 4) ? occluders.polygon(1)[0] : point(1);
+    const int exact = sgn(dot(pluecker_of_pair(p.exact, q.exact), occluders.exact_pluecker_of(edge)));
+    EXPECT_EQ(occluders.small_side(p, q, edge), exact);
+    zeros += exact == 0;
+    // Beyond the bound, or between the integers, nothing is said.
+    Near_point beyond = p, between = p;
+    beyond.exact[2] = -2 * most;
+    between.exact[3] = 2;
+    EXPECT_EQ(occluders.small_side(p, beyond, edge), std::nullopt);
+    EXPECT_EQ(occluders.small_side(between, q, edge), std::nullopt);
+  }
+  EXPECT_GT(zeros, 5u);
+}
+
 TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane_it_is_in_beside_them) {
   using weak_scenes::at;
   // A triangle in the plane x = 0, where z <= y.

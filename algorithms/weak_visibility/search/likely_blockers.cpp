@@ -28,23 +28,20 @@ struct Lines_to_box {
     return std::all_of(to.begin(), to.end(), [&](const Triple& q) { return likely_value(h.near, q) < -on_plane; });
   }
   bool blocked_by(const Occluders& occluders, std::uint32_t piece) {
-    // 1. Its plane is between them.
     const Near_plane& h = occluders.plane(piece);
     const double sense = likely_value(h.near, from[0]) > 0 ? 1 : -1;
-    const auto on_side = [&](double side) {
-      return [&h, side](const Triple& p) { return side * likely_value(h.near, p) > on_plane; };
-    };
-    if (!std::all_of(from.begin(), from.end(), on_side(sense)) || !std::all_of(to.begin(), to.end(), on_side(-sense)))
-      return false;
-    // 2. No line passes outside of an edge.
+    // 1. No line passes outside of an edge, as one does of most pieces.
     if (pairs.empty())
       for (const Triple& p : from)
         for (const Triple& q : to) pairs.push_back(pluecker_of_pair(p, q));
-    const std::span<const Pluecker> edges = occluders.edges(piece);
-    return std::all_of(edges.begin(), edges.end(), [&](const Pluecker& edge) {
-      return std::all_of(pairs.begin(), pairs.end(),
-                         [&](const Pluecker& pair) { return sense * dot(pair, edge) > -on_plane; });
-    });
+    for (const Pluecker& edge : occluders.edges(piece))
+      for (const Pluecker& pair : pairs)
+        if (!(sense * dot(pair, edge) > -on_plane)) return false;
+    // 2. Its plane is between them.
+    const auto on_side = [&](double side) {
+      return [&h, side](const Triple& p) { return side * likely_value(h.near, p) > on_plane; };
+    };
+    return std::all_of(from.begin(), from.end(), on_side(sense)) && std::all_of(to.begin(), to.end(), on_side(-sense));
   }
 
  private:
@@ -72,9 +69,10 @@ std::vector<std::uint32_t> likely_blockers(const Occluders& occluders, const Wea
     const Piece_boxes::Node& node = nodes[at];
     Lines_to_box lines(source.polygon, node.box, occluders.frame().to_boxes());
     if (lines.all_behind(source.plane)) continue;
-    const std::optional<std::uint32_t> blocker =
-        occluders.on_segment(lines.middle_from(), lines.middle_to(),
-                             [&](std::uint32_t piece) { return lines.blocked_by(occluders, piece); });
+    const std::optional<std::uint32_t> blocker = occluders.on_segment(
+        {lines.middle_from(), lines.middle_to()},
+        [&](std::uint32_t piece) { return lines.blocked_by(occluders, piece); },
+        Occluders::segments_between({lines.from[0], lines.from[lines.from.size() / 2]}, {lines.to[0], lines.to[7]}));
     if (blocker) {
       for (std::uint32_t k = 0; k < node.count; ++k) likely[boxes.chunks()[node.first + k].piece] = *blocker;
     } else if (node.second != 0) {

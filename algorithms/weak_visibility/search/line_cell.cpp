@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace sightline {
@@ -71,7 +72,9 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
   std::vector<std::size_t> zeros;
   for (std::size_t c = 0; c < r.values.size() && !(positive && negative); ++c) {
     if (std::fabs(r.values[c]) > r.error) continue;
-    const int sign = sgn(dot(exact_pluecker_of(c), line.exact()));
+    const std::optional<int> small =
+        line.occluders->small_side(source[c / target.size()], target[c % target.size()], line.points);
+    const int sign = small ? *small : sgn(dot(exact_pluecker_of(c), line.exact()));
     positive |= sign > 0;
     negative |= sign < 0;
     if (sign == 0) zeros.push_back(c);

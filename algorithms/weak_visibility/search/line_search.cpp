@@ -75,13 +75,12 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
     return leaf({Weak_step::Kind::away, 0, {}, {}}, {});
   }
   facing_ = true;
-  bool is_met = false;
-  if (const std::optional<std::uint32_t> blocker = whole_blocker(*domains_[d], is_met)) {
+  if (const std::optional<std::uint32_t> blocker = whole_blocker(*domains_[d])) {
     ++counters_->blocked;
     ++counters_->by_one;
     return leaf({Weak_step::Kind::blocked, *blocker, {}, {}}, {});
   }
-  if (options_->rays > 0 && try_lines(*domains_[d], is_met)) return {Weak_status::visible, 0, {}};
+  if (options_->rays > 0 && try_lines(*domains_[d])) return {Weak_status::visible, 0, {}};
   Line_domain& domain = *domains_[d];
   for (const std::uint32_t piece : occluders_->near_shaft(domain.source, domain.target))
     domain.candidates.push_back({piece, 0, 0});
@@ -91,13 +90,15 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
   return refute(d, 0);
 }
 
-std::optional<std::uint32_t> Line_search::whole_blocker(const Line_domain& domain, bool& is_met) const {
+std::optional<std::uint32_t> Line_search::whole_blocker(const Line_domain& domain) const {
   const Line_weights line = Line_weights::middle(domain);
-  const Triple p = weighted_mean(domain.source, line.source), q = weighted_mean(domain.target, line.target);
-  return occluders_->on_segment(p, q, [&](std::uint32_t piece) {
-    is_met = is_met || is_between(piece, p, q);
-    return occluders_->blocks_all(piece, domain.source, domain.target, domain.pairs);
-  });
+  const auto corners = [](const Near_polygon& polygon) {
+    return Occluders::Segment{polygon[0].near, polygon[polygon.size() / 2].near};
+  };
+  return occluders_->on_segment(
+      {weighted_mean(domain.source, line.source), weighted_mean(domain.target, line.target)},
+      [&](std::uint32_t piece) { return occluders_->blocks_all(piece, domain.source, domain.target, domain.pairs); },
+      Occluders::segments_between(corners(domain.source), corners(domain.target)));
 }
 
 bool Line_search::is_between(std::uint32_t piece, const Triple& p, const Triple& q) const {
@@ -105,19 +106,17 @@ bool Line_search::is_between(std::uint32_t piece, const Triple& p, const Triple&
   return std::fabs(likely_value(h, p)) > close && std::fabs(likely_value(h, q)) > close;
 }
 
-bool Line_search::try_lines(const Line_domain& domain, bool middle_is_met) {
+bool Line_search::try_lines(const Line_domain& domain) {
   const auto is_seen = [&](const Line_weights& line) {
-    if (confirm(domain, line)) return false;
+    const Triple p = weighted_mean(domain.source, line.source), q = weighted_mean(domain.target, line.target);
+    const auto is_met = [&](std::uint32_t piece) { return is_between(piece, p, q); };
+    if (occluders_->on_segment({p, q}, is_met) || confirm(domain, line)) return false;
     ++counters_->by_rays;
     return true;
   };
-  if (!middle_is_met && is_seen(Line_weights::middle(domain))) return true;
-  for (const Line_weights& line : near_lines(domain.source, *source_plane_, domain.target, *target_plane_)) {
-    const Triple p = weighted_mean(domain.source, line.source), q = weighted_mean(domain.target, line.target);
-    const auto is_met = [&](std::uint32_t piece) { return is_between(piece, p, q); };
-    if (!occluders_->on_segment(p, q, is_met) && is_seen(line)) return true;
-  }
-  return false;
+  if (is_seen(Line_weights::middle(domain))) return true;
+  const std::vector<Line_weights> lines = near_lines(domain.source, *source_plane_, domain.target, *target_plane_);
+  return std::any_of(lines.begin(), lines.end(), is_seen);
 }
 
 const std::vector<Candidate>& Line_search::candidates_of(std::uint32_t d) {

@@ -73,14 +73,13 @@ class Line_search {
   Refutation begin(std::uint32_t d);
 
   /// A piece that blocks all of a domain's lines, if one of those that the line of middles meets does. Proof: P-71
-  /// `is_met`: set where that line meets any.
-  std::optional<std::uint32_t> whole_blocker(const Line_domain& domain, bool& is_met) const;
+  std::optional<std::uint32_t> whole_blocker(const Line_domain& domain) const;
 
   /// Whether both points are off a piece's plane, in doubles: else the piece may only touch their segment's end.
   bool is_between(std::uint32_t piece, const Triple& p, const Triple& q) const;
 
   /// Whether one of a few lines that need no candidates is free: that of middles, and some where the polygons are near.
-  bool try_lines(const Line_domain& domain, bool middle_is_met);
+  bool try_lines(const Line_domain& domain);
 
   /// What may come between the polygons of a domain. Many domains end without that question.
   const std::vector<Candidate>& candidates_of(std::uint32_t d);
