@@ -321,8 +321,7 @@ std::optional<std::uint32_t> Occluders::on_segment(const Segment& segment,
                                                    const std::function<bool(std::uint32_t)>& accept,
                                                    std::span<const Segment> beside) const {
   std::vector<Segment_of_boxes> all{{segment[0], segment[1], frame_.to_boxes()}};
-  if (entries_.size() == planes_.size())  // else a box may hold but a part of a piece
-    for (const Segment& other : beside) all.emplace_back(other[0], other[1], frame_.to_boxes());
+  for (const Segment& other : beside) all.emplace_back(other[0], other[1], frame_.to_boxes());
   const auto is_near_all = [&](const Piece_boxes::Box& box) {
     return std::all_of(all.begin(), all.end(), [&](const Segment_of_boxes& one) { return one.is_near(box); });
   };

@@ -66,7 +66,8 @@ class Occluders {
   std::vector<std::uint32_t> near_segment(const Triple& p, const Triple& q, double margin) const;
   using Segment = std::array<Triple, 2>;
   /// Of the pieces that a segment crosses, inside all of their edges, the first one that is accepted; only in boxes
-  /// that the segments `beside` it meet, too. In doubles, for proposals.
+  /// that the segments `beside` it meet, too (a piece of more than 32 corners has several boxes, and may be passed
+  /// over). In doubles, for proposals.
   std::optional<std::uint32_t> on_segment(const Segment& segment, const std::function<bool(std::uint32_t)>& accept,
                                           std::span<const Segment> beside = {}) const;
   /// Those from either of two points to either of two others: what blocks all lines between their surroundings is in

@@ -281,7 +281,7 @@ TEST(One_piece, blocks_all_up_to_the_edge_of_its_shadow_and_no_further) {
 TEST(One_piece, of_so_many_corners_that_several_boxes_hold_it_blocks_all_too) {
   using weak_scenes::at;
   using weak_scenes::rectangle;
-  // Along a parabola: no box holds all of it, and of the lines beside the middle one some miss each.
+  // Along a parabola.
   std::vector<Exact_point> arc;
   for (int x = -60; x <= 60; ++x) arc.push_back(at(x, x * x, 2));
   const Scene scene(
