@@ -132,7 +132,7 @@ class Kept_fuzzing {
   /// Goes on from what is there. Errors: std::runtime_error where it is of another question, or damaged.
   void load(Fuzzed& fuzzed, std::optional<harness::Fuzz_place>& place) const {
     if (!std::filesystem::exists(file_)) return;
-    const nlohmann::json found = parse_json(read_bytes(file_), file_);
+    const nlohmann::json found = parse_json(read_own_bytes(file_), file_);
     check_resumed(file_, found, head_);
     try {
       const nlohmann::json& counters = found.at("counters");

@@ -6,6 +6,7 @@
 #include "../support/journal.h"
 #include "../support/limited_process.h"
 
+#include <sightline/io/file.h>
 #include <sightline/io/read.h>
 
 #include <charconv>
@@ -62,6 +63,7 @@ std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_o
   if (!choice.ask.empty()) query = query_of(choice.ask, options.question);
   std::vector<Case_group> groups;
   for (const fs::path& file : files) {
+    will_be_read(file);  // whatever is written before that
     const auto make = [file, query, options](std::uint64_t seed) {
       return query ? case_of(read_scene(file), *query, options) : case_of(read_scene(file), seed, options);
     };

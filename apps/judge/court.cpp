@@ -95,23 +95,23 @@ Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
   return judged;
 }
 
-/// The files of a case, without an answer.
-void Court::write_case(const Judge_case& asked) const {
+std::string Court::scene_text(const Judge_case& asked) const {
   std::ostringstream text;
   write_scene(asked.soup, text, *format_of_ending(scene()));
-  write_temporary(scene(), text.view());
-  write_temporary(query(), judge::to_json(asked.query).dump() + "\n");
+  return std::move(text).str();
+}
+static std::string query_text(const Judge_case& asked) { return judge::to_json(asked.query).dump() + "\n"; }
+
+/// The files of a case, without an answer.
+void Court::write_case(const Judge_case& asked) const {
+  write_temporary(scene(), scene_text(asked));
+  write_temporary(query(), query_text(asked));
   fs::remove_all(answer());
 }
 
 std::optional<std::string> Court::said() const {
   if (!fs::is_regular_file(answer())) return std::nullopt;
   return read_bytes(answer());
-}
-
-void Court::put_back(const Judge_case& asked, const std::optional<std::string>& said) const {
-  write_case(asked);
-  if (said) write_temporary(answer(), *said);
 }
 
 judge::Answer Court::read(const Judge_case& asked, const std::string& said) const {
@@ -178,16 +178,17 @@ void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Jud
   count_kinds(asked, truth, judged);
 }
 
-std::vector<std::string> Court::keep_files(const std::string& folder, const std::string& stem) const {
+std::vector<std::string> Court::keep_files(const std::string& folder, const std::string& stem, const Judge_case& asked,
+                                           const std::optional<std::string>& said) const {
   std::vector<std::string> kept;
   fs::create_directories(folder);
-  for (const fs::path& file : {scene(), query(), answer()}) {
-    const fs::path to =
-        fs::path(folder) / (stem + '.' + (file.extension() == "" ? "answer" : file.extension().string().substr(1)));
-    std::error_code ignored;
-    fs::remove(to, ignored);
-    if (fs::exists(file) && fs::copy_file(file, to, ignored)) kept.push_back(to.string());
-  }
+  const auto keep = [&](const std::string& ending, const std::string& text) {
+    write_file(kept.emplace_back((fs::path(folder) / (stem + '.' + ending)).string()), text);
+  };
+  keep(options_.format, scene_text(asked));
+  keep("json", query_text(asked));
+  if (said) keep("answer", *said);
+  else fs::remove(fs::path(folder) / (stem + ".answer"));
   return kept;
 }
 

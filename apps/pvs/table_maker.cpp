@@ -157,7 +157,7 @@ fs::path Table_maker::kept_folder() const {
 std::optional<Visibility_table> Table_maker::kept(const fs::path& path, const Shard& own) const {
   if (!fs::is_regular_file(path)) return std::nullopt;
   try {
-    const std::string bytes = read_bytes(path);
+    const std::string bytes = read_own_bytes(path);
     Visibility_table table = read_table({path.string(), bytes});
     // It is a block of this table, of its cells and of this share of its faces; else it is asked again.
     if (table.question != question_ || table.cells != asked_) return std::nullopt;

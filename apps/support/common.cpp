@@ -97,6 +97,7 @@ Polygon_soup Common::read() const {
   Read_options options;
   options.round_to_double = coordinates == "double";
   Polygon_soup soup = format.read(scene, options);
+  if (command) command->check_outputs({});  // now that it is known what else was read
   return flip ? generate::faces_reversed(soup) : soup;
 }
 

@@ -98,7 +98,7 @@ std::vector<nlohmann::json> Journal::lines() {
   std::vector<nlohmann::json> lines;
   good_ = 0;
   if (!fs::exists(file_)) return lines;
-  const std::string bytes = read_bytes(file_);
+  const std::string bytes = read_own_bytes(file_);
   bool is_first = true;
   for (std::size_t at = 0, end; (end = bytes.find('\n', at)) != std::string::npos; at = end + 1) {
     nlohmann::json line = nlohmann::json::value_t::discarded;

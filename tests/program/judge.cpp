@@ -56,6 +56,20 @@ TEST_F(Judge, marks_what_became_of_a_program) {
   }
 }
 
+TEST_F(Judge, keeps_what_was_asked_whatever_a_program_does_to_its_files) {
+  const std::vector<std::string> options{"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "1"};
+  const auto kept = [&](const std::string& script, const std::string& folder) {
+    std::vector<std::string> words = options;
+    words.insert(words.end(), {"--keep", path(folder).string()});
+    judge(shell(script), words, disagreement);
+    return read_file(path(folder + "/smallest.off")) + read_file(path(folder + "/smallest.json")) +
+           read_file(path(folder + "/smallest.answer"));
+  };
+  const std::string asked = kept("echo > $3", "asked");
+  EXPECT_EQ(kept("echo OFF > $1; rm $2; echo > $3", "changed"), asked);
+  EXPECT_EQ(asked.substr(0, 3), "OFF");
+}
+
 TEST_F(Judge, ends_what_a_program_leaves_running) {
   const std::string left = path("left").string();
   EXPECT_EQ(mark("sleep 300 & echo $! > " + left + "; echo abstained all > $3", "exact", done), "abstained");
