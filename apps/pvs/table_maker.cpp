@@ -17,7 +17,7 @@ Table_maker::Table_maker(const Pvs_arguments& arguments, const Division& divisio
     : arguments_(arguments), level_(level), limit_(limit), faces_(soup.face_count()), search_(level, options()) {
   question_ =
       fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), division.candidates, division.seed,
-                  arguments.outside ? ", outside" : "", division.question, arguments.cells_too ? ", cells too" : "");
+                  arguments.outside ? ", outside" : "", division.question(), arguments.cells_too ? ", cells too" : "");
   if (arguments.cells_too) cell_search_.emplace(level, options());
   const std::vector<char> asked = asked_cells(level, arguments.outside);
   asked_.assign(asked.begin(), asked.end());

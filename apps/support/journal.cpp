@@ -3,6 +3,7 @@
 #include "versions.h"
 
 #include <sightline/algorithms/verify/keys_once.h>
+#include <sightline/io/binary.h>
 #include <sightline/io/file.h>
 
 #include <cstdlib>
@@ -41,11 +42,7 @@ void check_resumed(const std::string& file, const nlohmann::json& found, const J
   if (found["asked"].size() != head["asked"].size()) refuse("was begun with other options");
 }
 
-std::string hash_of_bytes(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
-}
+std::string hash_of_bytes(std::string_view bytes) { return fmt::format("{:016x}", sum_of_bytes(bytes)); }
 
 std::string content_hash(const std::string& file) { return hash_of_bytes(read_bytes(file)); }
 
