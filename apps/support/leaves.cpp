@@ -93,7 +93,8 @@ Division Division_arguments::division(const Common& common, const Polygon_soup& 
     const Polygon_soup read = of_file.read();
     division.kind = Division::Kind::volumes;
     try {
-      Volume_division found = convex_volumes(read);
+      Progress progress("dividing");
+      Volume_division found = convex_volumes(read, common.within_budget(progress));
       division.tree = std::move(found.tree);
       division.volumes = found.volumes;
     } catch (const std::invalid_argument& error) {
