@@ -1,6 +1,7 @@
 #include <sightline/io/quake_map.h>
 
 #include <sightline/io/decimal.h>
+#include <sightline/io/grid_limit.h>
 #include <sightline/io/text.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/quoted.h>
@@ -42,6 +43,14 @@ std::optional<Side> side_through(const std::array<Exact_point, 3>& points) {
   for (Integer& value : whole) value /= common;
   return Side{{whole[0], whole[1], whole[2]}, whole[3], true};
 }
+
+/// Of the longest number of its plane. Points with as many digits as doubles have, of 17 places too, take some 300.
+std::size_t bits_of(const Side& side) {
+  std::size_t bits = bit_length(side.offset);
+  for (const Integer& value : side.normal) bits = std::max(bits, bit_length(value));
+  return bits;
+}
+constexpr std::size_t most_plane_bits = 1024;
 
 Rational beyond(const Side& side, const Exact_point& p) {
   return side.normal[0] * p[0] + side.normal[1] * p[1] + side.normal[2] * p[2] - side.offset;
@@ -89,7 +98,7 @@ std::vector<Exact_point> within(const Side& side, std::vector<Exact_point> polyg
 class Map_reader {
  public:
   Map_reader(const Input& input, const Read_options& options)
-      : text_(input, Text_reader::Comments::none), options_(options) {}
+      : text_(input, Text_reader::Comments::none), options_(options), bytes_(input.bytes.size()) {}
 
   Polygon_soup read() {
     for (std::string_view word = next_word(); !word.empty(); word = next_word()) {
@@ -207,6 +216,9 @@ class Map_reader {
     }
     std::optional<Side> side = side_through(points);
     if (!side) text_.fail(begin, "the three points of this side lie on a line; give three that span its plane");
+    if (bits_of(*side) > most_plane_bits)
+      text_.fail(begin, "this side's plane takes numbers of " + std::to_string(bits_of(*side)) + " bits, more than " +
+                            std::to_string(most_plane_bits) + "; give its points with fewer digits");
     side->is_drawn = is_drawn(text_.next_token());
     text_.finish_line();
     return *std::move(side);
@@ -229,10 +241,7 @@ class Map_reader {
     if (std::none_of(brush.sides.begin(), brush.sides.end(), [](const Side& side) { return side.is_drawn; })) return;
     // Three planes of coefficients below 2^b meet in a point p/q with p below 6 2^3b, and q an integer.
     std::size_t bits = 1;
-    for (const Side& side : brush.sides) {
-      for (const Integer& value : side.normal) bits = std::max(bits, bit_length(value));
-      bits = std::max(bits, bit_length(side.offset));
-    }
+    for (const Side& side : brush.sides) bits = std::max(bits, bits_of(side));
     Integer reach;
     mpz_setbit(reach.get_mpz_t(), 3 * bits + 4);
     std::vector<std::vector<Exact_point>> faces;
@@ -249,7 +258,7 @@ class Map_reader {
       text_.fail(brush.at,
                  named(brush) + " has no volume; give its sides' points clockwise as seen from outside, or remove it");
     brushes_.push_back({entity_, brush.number, static_cast<Face_id>(soup_.face_count()), faces.size()});
-    for (const std::vector<Exact_point>& face : faces) add_face(face);
+    for (const std::vector<Exact_point>& face : faces) add_face(face, brush);
   }
   std::string named(const Brush& brush) const {
     return "brush " + std::to_string(brush.number) + " of entity " + std::to_string(entity_);
@@ -266,12 +275,17 @@ class Map_reader {
     return face;
   }
 
-  void add_face(const std::vector<Exact_point>& face) {
+  void add_face(const std::vector<Exact_point>& face, const Brush& brush) {
     std::vector<Point_id> corners;
     for (const Exact_point& p : face) {
       const auto [place, fresh] = ids_.try_emplace(p, static_cast<Point_id>(ids_.size()));
-      if (fresh) soup_.add_point(p[0], p[1], p[2]);
       corners.push_back(place->second);
+      if (!fresh) continue;
+      soup_.add_point(p[0], p[1], p[2]);
+      for (const Rational& x : p)
+        if (!grid_.include(x.get_den(), ids_.size(), bytes_))
+          text_.fail(brush.at, named(brush) + " and those before it have " + Grid_limit::words +
+                                   "; snap their sides to whole numbers, or cut round brushes in parts");
     }
     soup_.add_face(corners);
   }
@@ -284,6 +298,8 @@ class Map_reader {
   std::vector<Map_brush> brushes_;
   Polygon_soup soup_;
   std::map<Exact_point, Point_id> ids_;
+  std::size_t bytes_;
+  Grid_limit grid_;
 };
 
 }  // namespace
