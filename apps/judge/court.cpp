@@ -2,6 +2,8 @@
 
 #include "court.h"
 
+#include "kept.h"
+
 #include <sightline/io/file.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
@@ -158,21 +160,42 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
   judged.breaks = judge::breaks(options_.contract, judged.mark, judged.grade);
 }
 
+/// What the program wrote takes as much time and memory as it pleases to be read and graded: so a copy of this process
+/// does it, within the program's limits.
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
-  try {
-    const std::optional<std::string> text = said();
-    if (!text) throw std::invalid_argument("it wrote no answer");
-    judged.answer = read(asked, *text);
-    judged.grade = judge::grade(truth, judged.answer);
-  } catch (const std::runtime_error& error) {  // no file that can be read
-    judged.mark = judge::Mark::invalid;
-    judged.why = error.what();
-    return;
-  } catch (const std::invalid_argument& error) {
-    judged.mark = judge::Mark::invalid;
-    judged.why = std::string("the answer: ") + error.what();
+  // 1. The grade, or why there is none.
+  const auto graded = [&]() -> std::string {
+    try {
+      const std::optional<std::string> text = said();
+      if (!text) throw std::invalid_argument("it wrote no answer");
+      return to_text({{"grade", grade_json(judge::grade(truth, read(asked, *text)))}});
+    } catch (const std::invalid_argument& error) {
+      return to_text({{"why", std::string("the answer: ") + error.what()}});
+    } catch (const std::runtime_error& error) {  // no file that can be read
+      return to_text({{"why", error.what()}});
+    } catch (const std::logic_error& error) {
+      return to_text({{"fault", error.what()}});
+    }
+  };
+  const fs::path file = folder_ / "graded";
+  const Process_end end = work_limited(graded, options_.limits, file);
+  if (end.kind != Process_end::exited || end.number != 0) {
+    judged.mark = end.kind == Process_end::timed_out ? judge::Mark::timed_out : judge::Mark::out_of_memory;
+    judged.why = end.kind == Process_end::timed_out
+                     ? fmt::format("its answer is not graded within {} s", options_.limits.seconds)
+                     : fmt::format("its answer takes more than {} MB to grade", options_.limits.bytes >> 20);
     return;
   }
+  // 2. What it says.
+  const nlohmann::json found = parse_json(read_own_bytes(file), file.string());
+  if (found.contains("fault")) throw std::logic_error(found["fault"].get<std::string>());
+  if (found.contains("why")) {
+    judged.mark = judge::Mark::invalid;
+    judged.why = found["why"].get<std::string>();
+    return;
+  }
+  judged.answer = read(asked, said().value());
+  judged.grade = grade_from_json(found.at("grade"));
   judged.mark = judge::mark_of(judged.grade);
   judged.why = in_words(judged.grade);
   count_kinds(asked, truth, judged);
