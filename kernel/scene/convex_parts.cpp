@@ -171,7 +171,13 @@ std::vector<Triangulation::Vertex_handle> insert_points(Triangulation& triangula
   std::vector<Triangulation::Vertex_handle> vertex(sites.size());
   Triangulation::Face_handle near;
   for (const std::size_t i : order) {
-    vertex[i] = triangulation.insert(sites[i], near);
+    Triangulation::Locate_type type = Triangulation::OUTSIDE_AFFINE_HULL;
+    int place = 0;
+    const Triangulation::Face_handle at = triangulation.locate(sites[i], type, place, near);
+    // CGAL inserts what is there, too, and then looks at all edges of it.
+    vertex[i] = type == Triangulation::VERTEX && triangulation.dimension() > 0
+                    ? at->vertex(place)
+                    : triangulation.insert(sites[i], type, at, place);
     vertex[i]->info().value = std::min(vertex[i]->info().value, static_cast<std::uint32_t>(i));
     near = vertex[i]->face();
   }
