@@ -271,14 +271,17 @@ TEST_F(Levels, a_table_with_cells_is_symmetric_and_the_same_however_it_was_divid
 
 TEST_F(Levels, what_was_done_before_an_end_is_not_done_again) {
   ASSERT_EQ(run({"pvs", rooms, "--out", out("whole.pvs")}).code, done);
-  // Blocks of another run, one of another question, one broken.
+  // Blocks of another run, one of another question, one broken, one with a bit flipped in its last row.
   std::filesystem::create_directories(path("again.pvs.parts"));
-  for (const int block : {3, 5, 9})
+  for (const int block : {3, 5, 9, 11})
     ASSERT_EQ(run({"pvs", rooms, "--shard", std::to_string(block) + "/64", "--out",
                    out("again.pvs.parts/" + std::to_string(block) + "-of-64.pvs"), "--seed", block == 5 ? "2" : "1"})
                   .code,
               done);
   std::ofstream(path("again.pvs.parts/9-of-64.pvs"), std::ios::app) << "more";
+  std::string flipped = bytes_of("again.pvs.parts/11-of-64.pvs");
+  flipped[flipped.size() - 9] = static_cast<char>(flipped[flipped.size() - 9] ^ 1);
+  file("again.pvs.parts/11-of-64.pvs", flipped);
   const Outcome again = run({"pvs", rooms, "--resume", "--out", out("again.pvs"), "--json", "-"});
   ASSERT_EQ(again.code, done) << again;
   EXPECT_EQ(again.json()["result"]["blocks_kept"], 1);
