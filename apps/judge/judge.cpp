@@ -8,6 +8,8 @@
 #include "page.h"
 #include "table.h"
 
+#include <sightline/io/file.h>
+
 namespace sightline::app {
 
 namespace {
@@ -260,6 +262,7 @@ class Session {
 Exit run(const Judge_arguments& arguments) {
   check_usage(arguments);
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
+  for (const std::string& output : {arguments.json, arguments.html}) check_replaceable(output);  // before the work
   const Court court(arguments.court_options());
   const Shard own = shard_of(arguments.shard);
   std::optional<Kept_cases> kept;
