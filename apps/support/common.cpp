@@ -237,7 +237,7 @@ std::string to_text(const Json& value, int indent) {
 
 nlohmann::json parse_json(const std::string& text, const std::string& name) {
   try {
-    return nlohmann::json::parse(text, refuse_keys_twice());
+    return json_with_keys_once(text);
   } catch (const std::invalid_argument& error) {
     throw Input_error::of_file(name, std::string(error.what()) + "; write the file again");
   } catch (const nlohmann::json::parse_error& error) {

@@ -89,8 +89,13 @@ std::vector<Exact_point> points_from_json(const nlohmann::json& value, const std
 namespace protocol_detail {
 
 Answer Answer_reader::from_json(const std::string& text) {
-  const nlohmann::json value = nlohmann::json::parse(text, refuse_keys_twice(), false);
-  if (value.is_discarded()) fail("begins with { but is not JSON");
+  const nlohmann::json value = [&] {
+    try {
+      return json_with_keys_once(text);
+    } catch (const nlohmann::json::exception&) {
+      fail("begins with { but is not JSON");
+    }
+  }();
   check_integers(text);
   const std::string key = question_ == Question::order ? "order" : question_ == Question::trace ? "first" : "visible";
   const auto abstained = value.find("abstained");
