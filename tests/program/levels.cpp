@@ -149,7 +149,12 @@ TEST_F(Levels, a_cell_file_of_another_scene_or_a_damaged_one_is_refused) {
   damaged([](Json& c) { c["made"]["tree"]["nodes"][0][1] = 0; }, "is damaged");  // below itself
   // Whoever makes the sum again is held to the scene.
   const auto forged = [&](const Json& made, const std::string& says) {
-    damaged([&](Json& c) { c["made"].update(made), c["made"]["sum"] = sum_of(c["made"]); }, says);
+    damaged(
+        [&](Json& c) {
+          c["made"].update(made);
+          c["made"]["sum"] = sum_of(c["made"]);
+        },
+        says);
   };
   forged({{"grid", {1, 2, 1}}}, "of its");
   forged({{"grid", {0, 1, 1}}}, "--grid 0,1,1: three positive numbers");

@@ -82,7 +82,7 @@ TEST_F(Outputs, never_take_the_place_of_what_was_read_by_another_files_name) {
     "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
     "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "index.json"}]})";
   std::string bytes(36, '\0');
-  bytes[14] = bytes[30] = '\x80', bytes[15] = bytes[31] = '\x3f';  // x of the second point and y of the third: 1
+  for (const std::size_t one : {14u, 30u}) bytes.replace(one, 2, "\x80\x3f");  // x of the second point, y of the third
   fs::create_directory(path("all"));
   fs::create_directory(path("all/part"));
   const std::string scene = file("all/s.gltf", tree), buffer = file("all/index.json", bytes),
