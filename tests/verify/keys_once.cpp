@@ -23,7 +23,7 @@ TEST(Keys_once, is_what_any_reader_of_json_says) {
        {"", "[1", "{\"a\":}", "[1] 2", "[1,]", "{\"a\" 1}", "\x7f", "\"\xff\"", "1e999", "nan"}) {
     std::string expected, found;
     try {
-      static_cast<void>(Json::parse(text));
+      ADD_FAILURE() << Json::parse(text);
     } catch (const Json::exception& error) {
       expected = error.what();
     }
