@@ -5,6 +5,7 @@
 #include "support/number_memory.h"
 #include "support/versions.h"
 
+#include <sightline/io/file.h>
 #include <sightline/kernel/time_limit.h>
 
 #include <unistd.h>
@@ -93,6 +94,7 @@ static Exit run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   watch_for_signals();
+  sightline::keep_what_is_read();
   std::set_new_handler(end_without_memory);
   keep_numbers_in_small_blocks(end_without_memory);
   const Exit exit = run(argc, argv);

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
@@ -30,6 +31,12 @@ void store(std::string& bytes, Value value) {
   if constexpr (std::endian::native == std::endian::big)
     for (std::size_t i = 0; i < sizeof(Value) / 2; ++i) std::swap(raw[i], raw[sizeof(Value) - 1 - i]);
   bytes.append(raw, sizeof(Value));
+}
+
+/// A sum that is another one wherever one byte is: FNV-1a of 64 bits. `before`: of the bytes before these.
+inline std::uint64_t sum_of_bytes(std::string_view bytes, std::uint64_t before = 0xcbf29ce484222325u) {
+  for (const char c : bytes) before = (before ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return before;
 }
 
 }  // namespace sightline

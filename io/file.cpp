@@ -11,12 +11,19 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <streambuf>
 #include <system_error>
+#include <utility>
 #include <vector>
+#if __has_include(<sys/stat.h>)
+#include <sys/stat.h>
+#endif
 #if __has_include(<unistd.h>)
 #include <unistd.h>
 #endif
@@ -45,17 +52,80 @@ fs::file_status status_of_input(const fs::path& path) {
   return status;
 }
 
+std::string shown(const fs::path& path) { return printable(path.string(), path.string().size(), false); }
+
+// ---- Files that are read, and kept
+
+/// The number of a file on this machine, whatever its names; none where there is no regular file.
+using File_number = std::pair<std::uintmax_t, std::uintmax_t>;
+std::optional<File_number> number_of_file(const fs::path& path) {
+#if __has_include(<sys/stat.h>)
+  struct stat found;
+  if (stat(path.string().c_str(), &found) == 0 && fs::is_regular_file(path))
+    return File_number(found.st_dev, found.st_ino);
+#endif
+  return std::nullopt;
+}
+
+/// What is kept: each file by one name that it was read by.
+class Kept_files {
+ public:
+  void begin() { keeps_ = true; }
+  void add(const fs::path& path) {
+    if (!keeps_) return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (const auto number = number_of_file(path)) names_[*number] = path;
+  }
+  /// The name that a file was read by, if it still is that file's; numbers of files that are gone are given again.
+  std::optional<fs::path> name_of(const fs::path& path) {
+    if (!keeps_) return std::nullopt;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto number = number_of_file(path);
+    const auto found = number ? names_.find(*number) : names_.end();
+    if (found == names_.end() || number_of_file(found->second) != number) return std::nullopt;
+    return found->second;
+  }
+
+ private:
+  std::atomic<bool> keeps_{false};
+  std::mutex mutex_;
+  std::map<File_number, fs::path> names_;
+};
+Kept_files& kept_files() {
+  static Kept_files files;
+  return files;
+}
+
 }  // namespace
+
+void keep_what_is_read() { kept_files().begin(); }
+void will_be_read(const fs::path& path) { kept_files().add(path); }
+
+void check_replaceable(const fs::path& path) {
+  if (const std::optional<fs::path> read = kept_files().name_of(path))
+    throw std::runtime_error(shown(path) + ": cannot be written: that is " +
+                             (*read == path ? "a file" : shown(*read) + ',') +
+                             " that is read, which would be lost; name another one");
+}
+
+// ---- Reading
 
 std::ifstream open_bytes(const fs::path& path) {
   status_of_input(path);
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) fail_to_open(path);
+  will_be_read(path);
   return in;
 }
 
 std::string read_bytes(const fs::path& path) {
+  std::string bytes = read_own_bytes(path);
+  will_be_read(path);
+  return bytes;
+}
+
+std::string read_own_bytes(const fs::path& path) {
   const fs::file_status status = status_of_input(path);
   std::error_code error;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
@@ -184,9 +254,11 @@ class Aside {
 
  private:
   void make() {
+    constexpr std::size_t longest = 255;  // name, of most systems
+    const std::string name = target_.filename().string();
     for (int number = 0; file_ == nullptr && (number == 0 || errno == EEXIST); ++number) {
-      path_ = target_;
-      path_ += ".partial" + (number == 0 ? "" : std::to_string(number));
+      const std::string ending = ".partial" + (number == 0 ? "" : std::to_string(number));
+      path_ = target_.parent_path() / (name.substr(0, longest - ending.size()) + ending);
       file_ = std::fopen(path_.c_str(), "wbx");
     }
     if (file_ == nullptr) error_ = last_error();
@@ -199,10 +271,12 @@ class Aside {
 };
 
 std::error_code write_whole(const fs::path& path, const Write& write) {
-  // 1. What is no regular file is written to as it is; a file that is there must let itself be written.
+  // 1. What is read stays. What is no regular file is written to as it is; a file that is there must let itself be
+  // written.
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::status_known(status)) return error;
+  check_replaceable(path);
   if (fs::exists(status)) {
     const bool direct = !fs::is_regular_file(status);
     std::FILE* const file = std::fopen(path.c_str(), direct ? "wb" : "r+b");
@@ -219,8 +293,7 @@ std::error_code write_whole(const fs::path& path, const Write& write) {
 
 void write_stream(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   if (const std::error_code error = write_whole(path, write))
-    throw std::runtime_error(printable(path.string(), path.string().size(), false) +
-                             ": cannot be written: " + error.message());
+    throw std::runtime_error(shown(path) + ": cannot be written: " + error.message());
 }
 
 void write_bytes(const fs::path& path, std::string_view bytes) {

@@ -11,15 +11,27 @@ namespace sightline {
 
 /// All bytes of a file (or pipe). Errors: Input_error where there is none, or it cannot be read.
 std::string read_bytes(const std::filesystem::path& path);
+/// The same of a file that the program writes for itself, to go on from: it may be replaced (keep_what_is_read()).
+std::string read_own_bytes(const std::filesystem::path& path);
+
+/// From now on, files that read_bytes() or open_bytes() open are not replaced by write_bytes() or write_stream(), by
+/// whatever name: for programs that read first and then write something else. Until then, a file may be read, changed
+/// and written.
+void keep_what_is_read();
+/// Where that was called: a file is read later, and kept already.
+void will_be_read(const std::filesystem::path& path);
+/// Errors: std::runtime_error where a file would be replaced that is kept; names both.
+void check_replaceable(const std::filesystem::path& path);
 
 /// The file that a path is a name of: links are followed, also one to a file that is not there yet. Errors:
 /// std::filesystem::filesystem_error where they lead in a circle.
 std::filesystem::path behind_links(const std::filesystem::path& path);
 
-/// Writes a file whole or not at all: to PATH.partial (or PATH.partial1 and so on, where that is taken), and renamed
+/// Writes a file whole or not at all: to PATH.partial (or PATH.partial1 and so on, where that is taken; without the end
+/// of a name that would be too long), and renamed
 /// once it is on the disk, so that what was there before stays until then. Its permissions stay, links stay links, and
 /// what is no regular file (a device, a pipe) is written to directly. Errors: std::runtime_error that names the path
-/// and says what the system said. Cost: waits for the disk.
+/// and says what the system said; as check_replaceable(). Cost: waits for the disk.
 void write_bytes(const std::filesystem::path& path, std::string_view bytes);
 
 /// The same of what `write` writes to a stream, so that it need not be held; where it throws, that is thrown on, and

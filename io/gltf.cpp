@@ -2,6 +2,7 @@
 
 #include <sightline/io/binary.h>
 #include <sightline/io/decimal.h>
+#include <sightline/io/grid_limit.h>
 #include <sightline/io/text.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/quoted.h>
@@ -125,6 +126,13 @@ struct Placement {
     for (const auto& row : linear) std::for_each(row.begin(), row.end(), take);
     std::for_each(shift.begin(), shift.end(), take);
     return most;
+  }
+  std::vector<Integer> denominators() const {
+    std::vector<Integer> all;
+    const auto take = [&](const Rational& x) { all.push_back(x.get_den()); };
+    for (const auto& row : linear) std::for_each(row.begin(), row.end(), take);
+    std::for_each(shift.begin(), shift.end(), take);
+    return all;
   }
   bool mirrors() const {
     const auto& m = linear;
@@ -515,6 +523,12 @@ class Gltf_reader {
     if (points.count > bytes() / 12 + most_points_beside_the_files - soup_.point_count() ||
         soup_.point_count() > bytes() / 12 + most_points_beside_the_files)
       fail(place, "nodes repeat meshes to too many points; write a file with fewer copies");
+    const std::size_t all = soup_.point_count() + points.count;
+    bool is_in_proportion = Grid_limit::allows(all, here.bits(), bytes());
+    for (const Integer& denominator : here.denominators())
+      is_in_proportion = is_in_proportion && grid_.include(denominator, all, bytes());
+    if (!is_in_proportion)
+      fail(place, std::string("nodes make of it ") + Grid_limit::words + "; turn it by shorter numbers, or not at all");
     for (std::size_t p = 0; p < points.count; ++p) {
       std::array<double, 3> x;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -573,6 +587,7 @@ class Gltf_reader {
   std::map<std::uint64_t, Buffer> buffers_;  // those that were asked for
   std::size_t bytes_beside_ = 0;             // of all buffers that are not in the file
   std::set<std::size_t> placed_;
+  Grid_limit grid_;
   Polygon_soup soup_;
 };
 

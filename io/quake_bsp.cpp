@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace sightline {
@@ -225,12 +226,21 @@ class Level_reader {
       if (level_.visibility.empty() || l == 0 || l > level_.visible_leaves) level_.leaves[l].visible_at = -1;
     const Records leaves = records(lump_leaves, 28);
     std::set<std::int64_t> known;
+    std::size_t bytes_left = found.size;  // rows may be those of several leaves, but have no bytes in common otherwise
     for (std::size_t l = 1; l <= level_.visible_leaves && !level_.leaves.empty(); ++l) {
       const std::int64_t begin = level_.leaves[l].visible_at;
       if (begin == -1 || !known.insert(begin).second) continue;
-      if (begin < 0 || !unpacked_row(level_.visibility, static_cast<std::size_t>(begin), level_.visible_leaves))
+      const auto row = begin < 0
+                           ? std::nullopt
+                           : unpacked_row(level_.visibility, static_cast<std::size_t>(begin), level_.visible_leaves);
+      if (!row)
         input_.fail_at_byte(leaves[l] + 4, "the row of what leaf " + std::to_string(l) +
                                                " sees does not end within its lump; compile the level again");
+      const std::size_t size = row->end - static_cast<std::size_t>(begin);
+      if (size > bytes_left)
+        input_.fail_at_byte(leaves[l] + 4, "the row of what leaf " + std::to_string(l) +
+                                               " sees overlaps that of another leaf; compile the level again");
+      bytes_left -= size;
     }
   }
 

@@ -1,6 +1,7 @@
 #include <sightline/io/quake_map.h>
 
 #include <sightline/io/decimal.h>
+#include <sightline/io/grid_limit.h>
 #include <sightline/io/text.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/quoted.h>
@@ -43,45 +44,67 @@ std::optional<Side> side_through(const std::array<Exact_point, 3>& points) {
   return Side{{whole[0], whole[1], whole[2]}, whole[3], true};
 }
 
+/// Of the longest number of its plane. Points with as many digits as doubles have, of 17 places too, take some 300.
+std::size_t bits_of(const Side& side) {
+  std::size_t bits = bit_length(side.offset);
+  for (const Integer& value : side.normal) bits = std::max(bits, bit_length(value));
+  return bits;
+}
+constexpr std::size_t most_plane_bits = 1024;
+
+/// A corner of a side in the making, and the same in integers: to tell its side of a plane takes no fractions.
+struct Corner {
+  Exact_point at;
+  std::array<Integer, 3> scaled;
+  Integer scale;
+
+  explicit Corner(Exact_point p) : at(std::move(p)), scale(1) {
+    for (const Rational& x : at) scale = lcm(scale, x.get_den());
+    for (std::size_t k = 0; k < 3; ++k) scaled[k] = at[k].get_num() * (scale / at[k].get_den());
+  }
+};
+
 Rational beyond(const Side& side, const Exact_point& p) {
   return side.normal[0] * p[0] + side.normal[1] * p[1] + side.normal[2] * p[2] - side.offset;
+}
+int sign_beyond(const Side& side, const Corner& p) {
+  return sgn(Integer(side.normal[0] * p.scaled[0] + side.normal[1] * p.scaled[1] + side.normal[2] * p.scaled[2] -
+                     side.offset * p.scale));
 }
 
 /// A square in a side's plane, counterclockwise as seen from outside, whose corners have two coordinates of size
 /// `reach`.
-std::vector<Exact_point> square_in(const Side& side, const Integer& reach) {
+std::vector<Corner> square_in(const Side& side, const Integer& reach) {
   std::size_t k = 0;  // the coordinate that the plane gives
   for (std::size_t i = 1; i < 3; ++i)
     if (abs(side.normal[i]) > abs(side.normal[k])) k = i;
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-  std::vector<Exact_point> square;
+  std::vector<Corner> square;
   for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
     Exact_point p;
     p[i] = x * reach;
     p[j] = y * reach;
     p[k] = (side.offset - side.normal[i] * p[i] - side.normal[j] * p[j]) / Rational(side.normal[k]);
-    square.push_back(std::move(p));
+    square.emplace_back(std::move(p));
   }
   if (sgn(side.normal[k]) < 0) std::reverse(square.begin(), square.end());
   return square;
 }
 
-/// The part of a convex polygon within a half space; nothing where it only touches it. Pre: not all in its plane.
-std::vector<Exact_point> within(const Side& side, std::vector<Exact_point> polygon) {
-  std::vector<Rational> values;
-  for (const Exact_point& p : polygon) values.push_back(beyond(side, p));
-  const auto is_out = [](const Rational& value) { return value > 0; };
-  const auto is_in = [](const Rational& value) { return value < 0; };
-  if (std::none_of(values.begin(), values.end(), is_out)) return polygon;
-  if (std::none_of(values.begin(), values.end(), is_in)) return {};
-  std::vector<Exact_point> part;
+/// The part of a convex polygon within a half space; nothing where it only touches it, unless all is in its plane.
+std::vector<Corner> within(const Side& side, std::vector<Corner> polygon, const std::vector<int>& signs) {
+  if (std::none_of(signs.begin(), signs.end(), [](int sign) { return sign > 0; })) return polygon;
+  if (std::none_of(signs.begin(), signs.end(), [](int sign) { return sign < 0; })) return {};
+  std::vector<Corner> part;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const std::size_t next = i + 1 == polygon.size() ? 0 : i + 1;
-    if (values[i] <= 0) part.push_back(polygon[i]);
-    if (sgn(values[i]) * sgn(values[next]) >= 0) continue;
-    const Rational t = values[i] / (values[i] - values[next]);
-    Exact_point& crossing = part.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) crossing[k] = polygon[i][k] + t * (polygon[next][k] - polygon[i][k]);
+    if (signs[i] <= 0) part.push_back(polygon[i]);
+    if (signs[i] * signs[next] >= 0) continue;
+    const Exact_point &p = polygon[i].at, &q = polygon[next].at;
+    const Rational from = beyond(side, p), t = from / (from - beyond(side, q));
+    Exact_point crossing;
+    for (std::size_t k = 0; k < 3; ++k) crossing[k] = p[k] + t * (q[k] - p[k]);
+    part.emplace_back(std::move(crossing));
   }
   return part;
 }
@@ -89,7 +112,7 @@ std::vector<Exact_point> within(const Side& side, std::vector<Exact_point> polyg
 class Map_reader {
  public:
   Map_reader(const Input& input, const Read_options& options)
-      : text_(input, Text_reader::Comments::none), options_(options) {}
+      : text_(input, Text_reader::Comments::none), options_(options), bytes_(input.bytes.size()) {}
 
   Polygon_soup read() {
     for (std::string_view word = next_word(); !word.empty(); word = next_word()) {
@@ -207,6 +230,9 @@ class Map_reader {
     }
     std::optional<Side> side = side_through(points);
     if (!side) text_.fail(begin, "the three points of this side lie on a line; give three that span its plane");
+    if (bits_of(*side) > most_plane_bits)
+      text_.fail(begin, "this side's plane takes numbers of " + std::to_string(bits_of(*side)) + " bits, more than " +
+                            std::to_string(most_plane_bits) + "; give its points with fewer digits");
     side->is_drawn = is_drawn(text_.next_token());
     text_.finish_line();
     return *std::move(side);
@@ -229,10 +255,7 @@ class Map_reader {
     if (std::none_of(brush.sides.begin(), brush.sides.end(), [](const Side& side) { return side.is_drawn; })) return;
     // Three planes of coefficients below 2^b meet in a point p/q with p below 6 2^3b, and q an integer.
     std::size_t bits = 1;
-    for (const Side& side : brush.sides) {
-      for (const Integer& value : side.normal) bits = std::max(bits, bit_length(value));
-      bits = std::max(bits, bit_length(side.offset));
-    }
+    for (const Side& side : brush.sides) bits = std::max(bits, bits_of(side));
     Integer reach;
     mpz_setbit(reach.get_mpz_t(), 3 * bits + 4);
     std::vector<std::vector<Exact_point>> faces;
@@ -249,29 +272,38 @@ class Map_reader {
       text_.fail(brush.at,
                  named(brush) + " has no volume; give its sides' points clockwise as seen from outside, or remove it");
     brushes_.push_back({entity_, brush.number, static_cast<Face_id>(soup_.face_count()), faces.size()});
-    for (const std::vector<Exact_point>& face : faces) add_face(face);
+    for (const std::vector<Exact_point>& face : faces) add_face(face, brush);
   }
   std::string named(const Brush& brush) const {
     return "brush " + std::to_string(brush.number) + " of entity " + std::to_string(entity_);
   }
   static std::vector<Exact_point> face_of(const std::vector<Side>& sides, std::size_t i, const Integer& reach) {
-    std::vector<Exact_point> face = square_in(sides[i], reach);
+    std::vector<Corner> face = square_in(sides[i], reach);
+    std::vector<int> signs;
     for (std::size_t j = 0; j < sides.size() && !face.empty(); ++j) {
       if (j == i) continue;
-      const bool is_in_plane =
-          std::all_of(face.begin(), face.end(), [&](const Exact_point& p) { return beyond(sides[j], p) == 0; });
-      if (!is_in_plane) face = within(sides[j], std::move(face));
+      signs.clear();
+      for (const Corner& corner : face) signs.push_back(sign_beyond(sides[j], corner));
+      const bool is_in_plane = std::all_of(signs.begin(), signs.end(), [](int sign) { return sign == 0; });
+      if (!is_in_plane) face = within(sides[j], std::move(face), signs);
       else if (!(sides[j] == sides[i]) || j < i) return {};  // no room between two sides, or given before
     }
-    return face;
+    std::vector<Exact_point> corners;
+    for (Corner& corner : face) corners.push_back(std::move(corner.at));
+    return corners;
   }
 
-  void add_face(const std::vector<Exact_point>& face) {
+  void add_face(const std::vector<Exact_point>& face, const Brush& brush) {
     std::vector<Point_id> corners;
     for (const Exact_point& p : face) {
       const auto [place, fresh] = ids_.try_emplace(p, static_cast<Point_id>(ids_.size()));
-      if (fresh) soup_.add_point(p[0], p[1], p[2]);
       corners.push_back(place->second);
+      if (!fresh) continue;
+      soup_.add_point(p[0], p[1], p[2]);
+      for (const Rational& x : p)
+        if (!grid_.include(x.get_den(), ids_.size(), bytes_))
+          text_.fail(brush.at, named(brush) + " and those before it have " + Grid_limit::words +
+                                   "; snap their sides to whole numbers, or cut round brushes in parts");
     }
     soup_.add_face(corners);
   }
@@ -284,6 +316,8 @@ class Map_reader {
   std::vector<Map_brush> brushes_;
   Polygon_soup soup_;
   std::map<Exact_point, Point_id> ids_;
+  std::size_t bytes_;
+  Grid_limit grid_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <sightline/kernel/quoted.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <iterator>
 #include <optional>
@@ -12,8 +13,15 @@
 namespace sightline {
 namespace {
 
-constexpr std::string_view first_line = "sightline pvs 1\n", first_line_with_cells = "sightline pvs 2\n";
-static_assert(first_line.size() == first_line_with_cells.size());
+/// What a table begins with. The first two are of older programs.
+struct Kind {
+  std::string_view first_line;
+  bool has_cells, has_sum;
+};
+constexpr std::array<Kind, 4> kinds{{{"sightline pvs 1\n", false, false},
+                                     {"sightline pvs 2\n", true, false},
+                                     {"sightline pvs 3\n", false, true},
+                                     {"sightline pvs 4\n", true, true}}};
 constexpr std::size_t most_said = 400;  // bytes of a question
 
 class Table_reader {
@@ -21,12 +29,29 @@ class Table_reader {
   explicit Table_reader(const Input& input) : input_(input), bytes_(input.bytes) {}
 
   Visibility_table read() {
-    const bool has_cells = bytes_.starts_with(first_line_with_cells);
-    if (!has_cells && !bytes_.starts_with(first_line))
+    const auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const Kind& one) { return bytes_.starts_with(one.first_line); });
+    if (kind == kinds.end())
       input_.fail_at_byte(0,
-                          "no table: it does not begin with the line `sightline pvs 1` or `sightline pvs 2`; make one "
-                          "by `sightline pvs`");
-    at_ = first_line.size();
+                          "no table: it does not begin with a line from `sightline pvs 1` to `sightline pvs 4`; make "
+                          "one by `sightline pvs`");
+    at_ = kind->first_line.size();
+    if (kind->has_sum) take_sum();
+    Visibility_table table = read_body(kind->has_cells);
+    if (kind->has_sum && sum_of_bytes(bytes_) != sum_)
+      throw Input_error::of_file(input_.name,
+                                 "is damaged: some byte is another one than was written; make the table again");
+    return table;
+  }
+
+ private:
+  /// The last bytes are the sum of all others.
+  void take_sum() {
+    if (bytes_.size() - at_ < sizeof sum_) fail("the sum of its bytes");
+    bytes_.remove_suffix(sizeof sum_);
+    sum_ = load<std::uint64_t>(input_.bytes, bytes_.size(), std::endian::little);
+  }
+  Visibility_table read_body(bool has_cells) {
     Visibility_table table;
     const std::size_t length = number("the question's length");
     if (length > bytes_.size() - at_) fail("the question");
@@ -60,8 +85,6 @@ class Table_reader {
     if (at_ != bytes_.size()) input_.fail_at_byte(at_, "the file goes on behind its last row; make the table again");
     return table;
   }
-
- private:
   [[noreturn]] void fail(const std::string& what) const {
     input_.fail_at_byte(std::min(at_, bytes_.size()),
                         "the file ends, or is broken, where " + what + " should be; make the table again");
@@ -92,6 +115,7 @@ class Table_reader {
   const Input& input_;
   std::string_view bytes_;
   std::size_t at_ = 0;
+  std::uint64_t sum_ = 0;
 };
 
 }  // namespace
@@ -103,7 +127,9 @@ const Visibility_table::Row* Visibility_table::row_of(std::size_t cell) const {
 }
 
 std::string table_bytes(const Visibility_table& table) {
-  std::string bytes(table.has_cells() ? first_line_with_cells : first_line);
+  const auto kind = std::find_if(kinds.begin(), kinds.end(),
+                                 [&](const Kind& one) { return one.has_sum && one.has_cells == table.has_cells(); });
+  std::string bytes(kind->first_line);
   store(bytes, static_cast<std::uint32_t>(table.question.size()));
   bytes += table.question;
   store(bytes, static_cast<std::uint32_t>(table.cells.size()));
@@ -118,6 +144,7 @@ std::string table_bytes(const Visibility_table& table) {
     for (const auto* cells : {&row.cells, &row.cells_undecided})
       bytes += packed_row({std::upper_bound(cells->begin(), cells->end(), c), cells->end()}, table.cells.size());
   }
+  store(bytes, sum_of_bytes(bytes));
   return bytes;
 }
 
@@ -126,7 +153,6 @@ Visibility_table read_table(const Input& input) { return Table_reader(input).rea
 Visibility_table joined(const std::vector<Visibility_table>& parts, const std::vector<std::string>& names) {
   if (parts.empty()) throw Merge_error("no part to merge; name the files that `sightline pvs --shard` wrote");
   Visibility_table whole = parts[0];
-  std::vector<std::size_t> face_from(whole.faces.size(), 0), cell_from(whole.lower_cells.size(), 0);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const Visibility_table& part = parts[i];
     if (part.question != whole.question || part.cells != whole.cells || part.faces.size() != whole.faces.size() ||
@@ -135,19 +161,20 @@ Visibility_table joined(const std::vector<Visibility_table>& parts, const std::v
                         printable(part.question, most_said, false) + "\", not \"" +
                         printable(whole.question, most_said, false) +
                         "\"; merge parts of one scene, with the same options");
-    const auto add = [&](const char* what, std::vector<bool>& own, const std::vector<bool>& more,
-                         std::vector<std::size_t>& from) {
-      for (std::size_t k = 0; k < more.size(); ++k) {
-        if (!more[k]) continue;
-        if (own[k])
-          throw Merge_error(names[i] + " and " + names[from[k]] + " both have " + what + " " + std::to_string(k) +
+    const auto add = [&](const char* what, std::vector<bool> Visibility_table::*bits) {
+      for (std::size_t k = 0; k < (part.*bits).size(); ++k) {
+        if (!(part.*bits)[k]) continue;
+        if ((whole.*bits)[k]) {
+          std::size_t other = 0;
+          while (!(parts[other].*bits)[k]) ++other;
+          throw Merge_error(names[i] + " and " + names[other] + " both have " + what + " " + std::to_string(k) +
                             "; leave one of them out");
-        own[k] = true;
-        from[k] = i;
+        }
+        (whole.*bits)[k] = true;
       }
     };
-    add("face", whole.faces, part.faces, face_from);
-    add("cell", whole.lower_cells, part.lower_cells, cell_from);
+    add("face", &Visibility_table::faces);
+    add("cell", &Visibility_table::lower_cells);
     for (std::size_t r = 0; r < whole.rows.size(); ++r)
       for (const auto list : {&Visibility_table::Row::visible, &Visibility_table::Row::undecided,
                               &Visibility_table::Row::cells, &Visibility_table::Row::cells_undecided}) {
@@ -166,10 +193,9 @@ Visibility_table merged(const std::vector<Visibility_table>& parts, const std::v
   // Which shards are missing: faces and cells go round among them.
   const auto check = [&](const char* what, std::vector<bool> Visibility_table::*bits) {
     const std::vector<bool>& all = whole.*bits;
-    std::vector<std::size_t> missing;
-    for (std::size_t k = 0; k < all.size(); ++k)
-      if (!all[k]) missing.push_back(k);
-    if (missing.empty()) return;
+    const auto missing = std::count(all.begin(), all.end(), false);
+    if (missing == 0) return;
+    const auto first = std::find(all.begin(), all.end(), false) - all.begin();
     std::size_t shards = 0;  // the step between the numbers of the first part that has any
     for (const Visibility_table& part : parts) {
       std::vector<std::size_t> own;
@@ -181,8 +207,8 @@ Visibility_table merged(const std::vector<Visibility_table>& parts, const std::v
     std::string again;
     for (std::size_t s = 0; s < shards && s < all.size(); ++s)
       if (!all[s]) again += (again.empty() ? "" : ", ") + std::to_string(s) + "/" + std::to_string(shards);
-    throw Merge_error(std::string(what) + " " + std::to_string(missing[0]) + " and " +
-                      std::to_string(missing.size() - 1) + " more are in no part" +
+    throw Merge_error(std::string(what) + " " + std::to_string(first) + " and " + std::to_string(missing - 1) +
+                      " more are in no part" +
                       (again.empty() ? "; run the shards that are missing" : "; run again --shard " + again));
   };
   check("face", &Visibility_table::faces);
@@ -191,10 +217,9 @@ Visibility_table merged(const std::vector<Visibility_table>& parts, const std::v
 }
 
 std::uint64_t fingerprint(const Polygon_soup& soup) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
+  std::uint64_t hash = sum_of_bytes("");
   const auto add = [&](std::string_view bytes) {
-    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    hash = (hash ^ 0xffu) * 0x100000001b3u;  // an end, which no text of a number has
+    hash = sum_of_bytes("\xff", sum_of_bytes(bytes, hash));  // an end, which no text of a number has
   };
   for (std::size_t i = 0; i < soup.coordinates.size(); ++i) add(to_string(soup.coordinates[i]));
   for (Face_id f = 0; f < soup.face_count(); ++f)

@@ -29,15 +29,17 @@ struct Visibility_table {
   const Row* row_of(std::size_t cell) const;
 };
 
-/// The bytes of a table: a line `sightline pvs 1`; the question, behind its length; the numbers of cells and faces;
+/// The bytes of a table: a line `sightline pvs 3`; the question, behind its length; the numbers of cells and faces;
 /// which cells were asked about and which faces; and for each of these cells two rows of bits (bit_rows.h), of what is
-/// visible and of what is undecided. Where pairs of cells were asked about, the line is `sightline pvs 2`; a row of the
+/// visible and of what is undecided. Where pairs of cells were asked about, the line is `sightline pvs 4`; a row of the
 /// lower cells of these pairs follows which faces were asked about, and the two rows of each of them that is asked
 /// about are followed by two more, of higher cells: so what is read is symmetric. Numbers are of 4 bytes, the least
-/// significant first.
+/// significant first. The last 8 bytes are the sum of all before them, sum_of_bytes().
 std::string table_bytes(const Visibility_table& table);
 
-/// Reads a table. Errors: Input_error where the bytes are none, or end too soon. Cost: one pass.
+/// Reads a table, also of older programs: `sightline pvs 1`, and with pairs of cells `2`, which have no sum. Errors:
+/// Input_error where the bytes are none, end too soon, or have not their sum. Cost: one pass; memory in proportion to
+/// the bytes.
 Visibility_table read_table(const Input& input);
 
 /// Parts that are none of one table, or not all of it; names the parts.

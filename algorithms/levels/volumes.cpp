@@ -1,19 +1,21 @@
 #include <sightline/algorithms/levels/volumes.h>
 
+#include <sightline/algorithms/levels/common_inside.h>
 #include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/union_find.h>
-#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <numeric>
-#include <span>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -25,8 +27,7 @@ namespace levels_detail {
 struct Convex_volume {
   std::string name;  // for messages: a face of it
   std::vector<Exact_plane> planes;
-  std::vector<Exact_point> corners;     // sorted
-  std::vector<Exact_point> directions;  // of edges, some of which are parallel
+  std::vector<Exact_point> corners;  // sorted
   std::array<Exact_point, 2> box;
 };
 
@@ -76,7 +77,10 @@ Polygon_soup of_faces(const Polygon_soup& soup, const std::vector<Face_id>& face
   return part;
 }
 
-Convex_volume convex_volume(const Polygon_soup& soup, const std::vector<Face_id>& faces) {
+/// `go_on` is called all the time, and may throw; so below.
+using Go_on = std::function<void()>;
+
+Convex_volume convex_volume(const Polygon_soup& soup, const std::vector<Face_id>& faces, const Go_on& go_on) {
   const Scene scene(of_faces(soup, faces));
   const auto name = [&](Face_id f) { return "face " + std::to_string(faces[f]); };
   Convex_volume volume;
@@ -88,12 +92,7 @@ Convex_volume convex_volume(const Polygon_soup& soup, const std::vector<Face_id>
                                 "are missing, and turn the others so that all fronts look outwards, or all inwards");
   for (const Piece& piece : scene.pieces()) {
     volume.planes.push_back(scene.file_coefficients(piece.support));
-    const std::span<const Piece_corner> corners = scene.corners(piece);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      volume.corners.push_back(scene.position(corners[k].point));
-      volume.directions.push_back(
-          minus(scene.position(corners[(k + 1) % corners.size()].point), volume.corners.back()));
-    }
+    for (const Piece_corner& corner : scene.corners(piece)) volume.corners.push_back(scene.position(corner.point));
   }
   std::sort(volume.corners.begin(), volume.corners.end());
   volume.corners.erase(std::unique(volume.corners.begin(), volume.corners.end()), volume.corners.end());
@@ -101,6 +100,7 @@ Convex_volume convex_volume(const Polygon_soup& soup, const std::vector<Face_id>
   // 2. All of it on one side of each plane.
   int inside = 0;  // the side that it is on
   for (std::size_t i = 0; i < volume.planes.size(); ++i) {
+    go_on();
     const std::array<int, 2> sides = sides_to(volume.planes[i], volume.corners);
     const int side = sides[0] + sides[1];
     if (side == 0 || (inside != 0 && side != inside))
@@ -118,34 +118,20 @@ Convex_volume convex_volume(const Polygon_soup& soup, const std::vector<Face_id>
   return volume;
 }
 
-/// Whether some plane parts two convex polyhedra: that of a side, or one along an edge of each.
+/// Whether two convex polyhedra have no point inside in common.
 bool are_apart(const Convex_volume& a, const Convex_volume& b) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (a.box[1][k] <= b.box[0][k] || b.box[1][k] <= a.box[0][k]) return true;
-  const auto is_beyond = [](const Convex_volume& of, const Convex_volume& other) {
-    return std::any_of(of.planes.begin(), of.planes.end(),
-                       [&](const Exact_plane& h) { return sides_to(h, other.corners)[0] >= 0; });
-  };
-  if (is_beyond(a, b) || is_beyond(b, a)) return true;
-  const auto extent = [](const Convex_volume& of, const Exact_point& direction) {
-    std::array<Rational, 2> ends{dot(direction, of.corners[0]), dot(direction, of.corners[0])};
-    for (const Exact_point& p : of.corners) {
-      const Rational at = dot(direction, p);
-      ends = {std::min(ends[0], at), std::max(ends[1], at)};
-    }
-    return ends;
-  };
-  for (const Exact_point& u : a.directions)
-    for (const Exact_point& v : b.directions) {
-      const Exact_point normal = cross(u, v);
-      if (is_zero(normal)) continue;
-      const std::array<Rational, 2> of_a = extent(a, normal), of_b = extent(b, normal);
-      if (of_a[1] <= of_b[0] || of_b[1] <= of_a[0]) return true;
-    }
-  return false;
+  std::array<Exact_point, 2> common;
+  for (std::size_t k = 0; k < 3; ++k) {
+    common[0][k] = std::max(a.box[0][k], b.box[0][k]);
+    common[1][k] = std::min(a.box[1][k], b.box[1][k]);
+    if (common[1][k] <= common[0][k]) return true;
+  }
+  std::vector<Exact_plane> planes = a.planes;
+  planes.insert(planes.end(), b.planes.begin(), b.planes.end());
+  return !have_common_inside(planes, common);
 }
 
-void check_apart(const std::vector<Convex_volume>& volumes) {
+void check_apart(const std::vector<Convex_volume>& volumes, const Go_on& go_on) {
   std::vector<std::size_t> order(volumes.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -154,6 +140,7 @@ void check_apart(const std::vector<Convex_volume>& volumes) {
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const Convex_volume &a = volumes[order[i]], &b = volumes[order[j]];
       if (b.box[0][0] >= a.box[1][0]) break;
+      go_on();
       if (!are_apart(a, b))
         throw std::invalid_argument(volumes[std::min(order[i], order[j])].name + " and " +
                                     volumes[std::max(order[i], order[j])].name +
@@ -178,7 +165,7 @@ class Volume_divider {
     }
   }
 
-  Space_tree divided() {
+  Space_tree divided(const Go_on& go_on) {
     struct Waiting {
       std::int32_t above;
       std::size_t side;  // of `above`: 0 in front, 1 behind
@@ -189,6 +176,7 @@ class Volume_divider {
     for (std::uint32_t v = 0; v < volumes_.size(); ++v) all.push_back({v, own_[v]});
     stack.push_back({-1, 0, std::move(all)});
     while (!stack.empty()) {
+      go_on();
       const Waiting job = std::move(stack.back());
       stack.pop_back();
       const std::int32_t made = made_of(job.left);
@@ -224,14 +212,19 @@ class Volume_divider {
     return static_cast<std::int32_t>(tree_.nodes.size());
   }
 
-  /// Whether a volume has points in front of a plane, behind it.
-  std::array<bool, 2> reaches(std::uint32_t volume, std::uint32_t plane) const {
+  /// Whether a volume has points in front of a plane, behind it: found once, as the same two meet below many nodes.
+  std::array<bool, 2> reaches(std::uint32_t volume, std::uint32_t plane) {
+    const auto [found, is_new] = reaches_.try_emplace(std::uint64_t{volume} << 32 | plane);
+    if (is_new) found->second = asked_reaches(volume, plane);
+    return found->second;
+  }
+  std::array<bool, 2> asked_reaches(std::uint32_t volume, std::uint32_t plane) const {
     const std::array<int, 2> sides = sides_to(planes_[plane], volumes_[volume].corners);
     return {sides[1] > 0, sides[0] < 0};
   }
 
   /// Of some planes that are left the one that leaves the least on both sides: cut volumes count twice.
-  std::uint32_t chosen(const std::vector<Left>& left) const {
+  std::uint32_t chosen(const std::vector<Left>& left) {
     constexpr std::size_t tried = 8;
     std::uint32_t best = left[0].planes[0];
     std::size_t least = ~std::size_t{0};
@@ -255,17 +248,23 @@ class Volume_divider {
   const std::vector<Convex_volume>& volumes_;
   std::vector<Exact_plane> planes_;
   std::vector<std::vector<std::uint32_t>> own_;  // by volume
+  std::unordered_map<std::uint64_t, std::array<bool, 2>> reaches_;
   Space_tree tree_;
 };
 
 }  // namespace levels_detail
 
-Volume_division convex_volumes(const Polygon_soup& soup) {
+Volume_division convex_volumes(const Polygon_soup& soup,
+                               const std::function<void(std::size_t, std::size_t)>& progress) {
   std::vector<levels_detail::Convex_volume> volumes;
-  for (const std::vector<Face_id>& faces : levels_detail::components_of(soup))
-    volumes.push_back(levels_detail::convex_volume(soup, faces));
-  levels_detail::check_apart(volumes);
-  Volume_division division{levels_detail::Volume_divider(volumes).divided(),
+  const std::vector<std::vector<Face_id>> components = levels_detail::components_of(soup);
+  const levels_detail::Go_on go_on = [&] {
+    if (progress) progress(volumes.size(), components.size() + 1);  // then they are held to each other, and divided
+  };
+  for (const std::vector<Face_id>& faces : components)
+    volumes.push_back(levels_detail::convex_volume(soup, faces, go_on));
+  levels_detail::check_apart(volumes, go_on);
+  Volume_division division{levels_detail::Volume_divider(volumes).divided(go_on),
                            static_cast<std::uint32_t>(volumes.size())};
   for (const levels_detail::Convex_volume& volume : volumes)
     division.tree.corners.insert(division.tree.corners.end(), volume.corners.begin(), volume.corners.end());

@@ -3,7 +3,9 @@
 
 #include <sightline/algorithms/levels/cells.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 
 namespace sightline {
 
@@ -17,7 +19,8 @@ struct Volume_division {
 /// touch, as long as they have points of their own; faces of no area are passed over, and sides may be in parts.
 /// Errors: std::invalid_argument, one line that names faces, where a component does not close up or is not convex, or
 /// where two have points inside in common. Cost: a tree of n planes with its n log n sides of volumes, where few are
-/// cut; n^2 in the worst case. Exact: yes. Proof: P-88c
-Volume_division convex_volumes(const Polygon_soup& soup);
+/// cut; n^2 in the worst case. `progress` is told how far it is; what it throws ends it. Exact: yes. Proof: P-88c
+Volume_division convex_volumes(const Polygon_soup& soup,
+                               const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
 }  // namespace sightline

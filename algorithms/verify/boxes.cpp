@@ -10,7 +10,7 @@ namespace sightline::certificate_check {
 
 namespace {
 
-constexpr std::uint32_t few = 8;  // boxes of a leaf
+constexpr std::uint32_t few_boxes = 8;  // boxes of a leaf
 
 /// The box about two points of a segment's coordinates, which are known up to `error` each.
 Outward_box box_about(const std::array<double, 3>& a, const std::array<double, 3>& b,
@@ -60,7 +60,7 @@ void Boxes::add(const std::vector<Outward_box>& boxes, const std::vector<Middle>
   const auto at = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({{}, begin, end, at + 1});
   for (std::uint32_t i = begin; i < end; ++i) nodes_[at].box.join(boxes[order_[i]]);
-  if (end - begin <= few) {
+  if (end - begin <= few_boxes) {
     leaves_.push_back(at);
     return;
   }

@@ -114,7 +114,7 @@ Solid_certificate read_solid_certificate(const std::string& text) {
   using nlohmann::json;
   Solid_certificate certificate;
   try {
-    const json all = json::parse(text, refuse_keys_twice());
+    const json all = json_with_keys_once(text);
     if (!all.is_object() || all.value("format", "") != solids_format)
       throw std::invalid_argument(std::string("its \"format\" is not \"") + solids_format + "\"");
     certificate.operation = all.at("operation").get<std::string>();

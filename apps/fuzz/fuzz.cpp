@@ -50,12 +50,27 @@ Json tallies_json(const std::map<std::string, harness::Tally>& tallies) {
     all[name] = {{"passed", tally.passed}, {"undecided", tally.undecided}, {"not_applicable", tally.not_applicable}};
   return all;
 }
+/// A number that counts something. Errors: std::exception where it is none: others would be made to fit.
+std::size_t count_from_json(const nlohmann::json& value) {
+  constexpr std::size_t most = std::size_t{1} << 53;
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) throw std::invalid_argument("no count");
+  return value.get<std::size_t>();
+}
 std::map<std::string, harness::Tally> tallies_from_json(const nlohmann::json& all) {
   std::map<std::string, harness::Tally> tallies;
   for (const auto& [name, tally] : all.items())
-    tallies[name] = {tally.at("passed").get<std::size_t>(), tally.at("undecided").get<std::size_t>(),
-                     tally.at("not_applicable").get<std::size_t>()};
+    tallies[name] = {count_from_json(tally.at("passed")), count_from_json(tally.at("undecided")),
+                     count_from_json(tally.at("not_applicable"))};
   return tallies;
+}
+/// What was found, as reduced_finding() writes it, or null. Errors: std::exception where it is neither.
+Json finding_from_json(const nlohmann::json& value) {
+  if (value.is_null()) return {};
+  for (const char* text : {"case", "check", "what", "replay", "reduced"})
+    if (!value.at(text).is_string()) throw std::invalid_argument("no text");
+  for (const char* count : {"faces", "faces_reduced", "runs"}) count_from_json(value.at(count));
+  if (!value.at("finished").is_boolean()) throw std::invalid_argument("not said");
+  return value;
 }
 void print_tallies(const std::string& title, const std::map<std::string, harness::Tally>& tallies) {
   std::cout << fmt::format("{:<28} {:>10} {:>10} {:>14}\n", title, "passed", "undecided", "not applicable");
@@ -132,16 +147,17 @@ class Kept_fuzzing {
   /// Goes on from what is there. Errors: std::runtime_error where it is of another question, or damaged.
   void load(Fuzzed& fuzzed, std::optional<harness::Fuzz_place>& place) const {
     if (!std::filesystem::exists(file_)) return;
-    const nlohmann::json found = parse_json(read_bytes(file_), file_);
+    const nlohmann::json found = parse_json(read_own_bytes(file_), file_);
     check_resumed(file_, found, head_);
     try {
       const nlohmann::json& counters = found.at("counters");
-      fuzzed.summary = {counters.at("scenes").get<std::size_t>(), counters.at("cases").get<std::size_t>(),
-                        counters.at("undecided").get<std::size_t>(), tallies_from_json(counters.at("checks")),
+      fuzzed.summary = {count_from_json(counters.at("scenes")), count_from_json(counters.at("cases")),
+                        count_from_json(counters.at("undecided")), tallies_from_json(counters.at("checks")),
                         tallies_from_json(counters.at("families"))};
       fuzzed.seconds = found.at("seconds").get<double>();
-      fuzzed.finding = found.at("finding");
-      place.emplace(harness::Fuzz_place{harness::Random(0), found.at("drawn").get<std::size_t>()});
+      if (!(fuzzed.seconds >= 0 && fuzzed.seconds < 1e15)) throw std::invalid_argument("no time");
+      fuzzed.finding = finding_from_json(found.at("finding"));
+      place.emplace(harness::Fuzz_place{harness::Random(0), count_from_json(found.at("drawn"))});
       place->random.set_state(found.at("random").get<std::string>());
     } catch (const std::exception&) {
       throw std::runtime_error(file_ + ": is damaged; delete the file to begin anew");

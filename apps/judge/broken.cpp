@@ -92,7 +92,7 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
   const harness::Reduced reduced = harness::reduce(scene, fails, options);
   const Judge_case left = case_of_smaller(reduced.scene);
   const Judged last = court.judge(left, broken.seed);
-  const std::vector<std::string> files = court.keep_files(arguments.keep, "reduced");
+  const std::vector<std::string> files = court.keep_files(arguments.keep, "reduced", left, court.said());
   Json json{
       {"faces", last.faces},
       {"runs", reduced.tests},

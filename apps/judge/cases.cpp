@@ -6,6 +6,7 @@
 #include "../support/journal.h"
 #include "../support/limited_process.h"
 
+#include <sightline/io/file.h>
 #include <sightline/io/read.h>
 
 #include <charconv>
@@ -37,24 +38,27 @@ namespace fs = std::filesystem;
 judge::Query query_of(const std::string& file, judge::Question question) {
   judge::Query query;
   try {
-    query = judge::query_from_json(parse_json(read_input(file), file));
-  } catch (const std::exception& error) {
-    throw Usage_error("--ask " + file + ": no query: " + printable(error.what(), 400, true));
+    const std::string text = read_input(file);
+    query = judge::query_from_json(parse_json(text, file));
+    judge::check_integers(text);
+  } catch (const std::invalid_argument& error) {
+    throw Input_error::of_file(file, "no query: " + printable(error.what(), 400, true) + "; write it as --keep does");
   }
   if (query.question != question) throw Usage_error("--ask " + file + ": another question than is asked here");
   return query;
 }
 
 std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_options& options) {
-  if (!fs::exists(choice.scenes)) throw Usage_error("--scenes " + choice.scenes + ": there is no such folder or file");
+  if (!fs::exists(choice.scenes))
+    throw Input_error::of_file(choice.scenes, "there is no such folder or file; check the path");
   std::vector<fs::path> files;
   if (fs::is_directory(choice.scenes)) {
     for (const auto& entry : fs::recursive_directory_iterator(choice.scenes))
       if (entry.is_regular_file() && format_of_ending(entry.path())) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     if (files.empty())
-      throw Usage_error("--scenes " + choice.scenes + ": the folder holds no scene; give one with " +
-                        std::string(supported_formats));
+      throw Input_error::of_file(choice.scenes,
+                                 std::string("the folder holds no scene; give one with ") + supported_formats);
   } else {
     files.push_back(choice.scenes);
   }
@@ -62,6 +66,7 @@ std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_o
   if (!choice.ask.empty()) query = query_of(choice.ask, options.question);
   std::vector<Case_group> groups;
   for (const fs::path& file : files) {
+    will_be_read(file);  // whatever is written before that
     const auto make = [file, query, options](std::uint64_t seed) {
       return query ? case_of(read_scene(file), *query, options) : case_of(read_scene(file), seed, options);
     };

@@ -39,7 +39,7 @@ struct Case_group {
 /// What tells a group from others of the same number, for --resume: its name, distance, and the content of its file.
 std::string identity(const Case_group& group);
 
-/// Errors: Usage_error naming the option.
+/// Errors: Usage_error naming the option, Input_error naming the file or the folder.
 std::vector<Case_group> groups_of(const Case_choice& choice, const Case_options& options);
 
 }  // namespace sightline::app

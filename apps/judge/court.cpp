@@ -2,6 +2,8 @@
 
 #include "court.h"
 
+#include "kept.h"
+
 #include <sightline/io/file.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
@@ -95,23 +97,23 @@ Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
   return judged;
 }
 
-/// The files of a case, without an answer.
-void Court::write_case(const Judge_case& asked) const {
+std::string Court::scene_text(const Judge_case& asked) const {
   std::ostringstream text;
   write_scene(asked.soup, text, *format_of_ending(scene()));
-  write_temporary(scene(), text.view());
-  write_temporary(query(), judge::to_json(asked.query).dump() + "\n");
+  return std::move(text).str();
+}
+static std::string query_text(const Judge_case& asked) { return judge::to_json(asked.query).dump() + "\n"; }
+
+/// The files of a case, without an answer.
+void Court::write_case(const Judge_case& asked) const {
+  write_temporary(scene(), scene_text(asked));
+  write_temporary(query(), query_text(asked));
   fs::remove_all(answer());
 }
 
 std::optional<std::string> Court::said() const {
   if (!fs::is_regular_file(answer())) return std::nullopt;
   return read_bytes(answer());
-}
-
-void Court::put_back(const Judge_case& asked, const std::optional<std::string>& said) const {
-  write_case(asked);
-  if (said) write_temporary(answer(), *said);
 }
 
 judge::Answer Court::read(const Judge_case& asked, const std::string& said) const {
@@ -158,36 +160,58 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
   judged.breaks = judge::breaks(options_.contract, judged.mark, judged.grade);
 }
 
+/// What the program wrote takes as much time and memory as it pleases to be read and graded: so a copy of this process
+/// does it, within the program's limits.
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
-  try {
-    const std::optional<std::string> text = said();
-    if (!text) throw std::invalid_argument("it wrote no answer");
-    judged.answer = read(asked, *text);
-    judged.grade = judge::grade(truth, judged.answer);
-  } catch (const std::runtime_error& error) {  // no file that can be read
-    judged.mark = judge::Mark::invalid;
-    judged.why = error.what();
-    return;
-  } catch (const std::invalid_argument& error) {
-    judged.mark = judge::Mark::invalid;
-    judged.why = std::string("the answer: ") + error.what();
+  // 1. The grade, or why there is none.
+  const auto graded = [&]() -> std::string {
+    try {
+      const std::optional<std::string> text = said();
+      if (!text) throw std::invalid_argument("it wrote no answer");
+      return to_text({{"grade", grade_json(judge::grade(truth, read(asked, *text)))}});
+    } catch (const std::invalid_argument& error) {
+      return to_text({{"why", std::string("the answer: ") + error.what()}});
+    } catch (const std::runtime_error& error) {  // no file that can be read
+      return to_text({{"why", error.what()}});
+    } catch (const std::logic_error& error) {
+      return to_text({{"fault", error.what()}});
+    }
+  };
+  const fs::path file = folder_ / "graded";
+  const Process_end end = work_limited(graded, options_.limits, file);
+  if (end.kind != Process_end::exited || end.number != 0) {
+    judged.mark = end.kind == Process_end::timed_out ? judge::Mark::timed_out : judge::Mark::out_of_memory;
+    judged.why = end.kind == Process_end::timed_out
+                     ? fmt::format("its answer is not graded within {} s", options_.limits.seconds)
+                     : fmt::format("its answer takes more than {} MB to grade", options_.limits.bytes >> 20);
     return;
   }
+  // 2. What it says.
+  const nlohmann::json found = parse_json(read_own_bytes(file), file.string());
+  if (found.contains("fault")) throw std::logic_error(found["fault"].get<std::string>());
+  if (found.contains("why")) {
+    judged.mark = judge::Mark::invalid;
+    judged.why = found["why"].get<std::string>();
+    return;
+  }
+  judged.answer = read(asked, said().value());
+  judged.grade = grade_from_json(found.at("grade"));
   judged.mark = judge::mark_of(judged.grade);
   judged.why = in_words(judged.grade);
   count_kinds(asked, truth, judged);
 }
 
-std::vector<std::string> Court::keep_files(const std::string& folder, const std::string& stem) const {
+std::vector<std::string> Court::keep_files(const std::string& folder, const std::string& stem, const Judge_case& asked,
+                                           const std::optional<std::string>& said) const {
   std::vector<std::string> kept;
   fs::create_directories(folder);
-  for (const fs::path& file : {scene(), query(), answer()}) {
-    const fs::path to =
-        fs::path(folder) / (stem + '.' + (file.extension() == "" ? "answer" : file.extension().string().substr(1)));
-    std::error_code ignored;
-    fs::remove(to, ignored);
-    if (fs::exists(file) && fs::copy_file(file, to, ignored)) kept.push_back(to.string());
-  }
+  const auto keep = [&](const std::string& ending, const std::string& text) {
+    write_file(kept.emplace_back((fs::path(folder) / (stem + '.' + ending)).string()), text);
+  };
+  keep(options_.format, scene_text(asked));
+  keep("json", query_text(asked));
+  if (said) keep("answer", *said);
+  else fs::remove(fs::path(folder) / (stem + ".answer"));
   return kept;
 }
 

@@ -45,14 +45,14 @@ class Court {
 
   /// What the program wrote of the last case, byte by byte; nothing where it wrote no file.
   std::optional<std::string> said() const;
-  /// Writes the files of a case as it would be the last one, without asking. Pre: it can be asked.
-  void put_back(const Judge_case& asked, const std::optional<std::string>& said) const;
   /// The answer as it is read. Errors: std::invalid_argument.
   judge::Answer read(const Judge_case& asked, const std::string& said) const;
 
-  /// Copies the files of the last case to a folder, so that the program can be asked again by hand. Returns the names
-  /// that it gave them: STEM.off or what the format is, STEM.json, STEM.answer.
-  std::vector<std::string> keep_files(const std::string& folder, const std::string& stem) const;
+  /// Writes the files of a case to a folder, so that the program can be asked again by hand: as it was asked, whatever
+  /// the program did to its own. Returns their names: STEM.off or what the format is, STEM.json, STEM.answer. Errors:
+  /// as write_file.
+  std::vector<std::string> keep_files(const std::string& folder, const std::string& stem, const Judge_case& asked,
+                                      const std::optional<std::string>& said) const;
 
   const std::vector<std::string>& words() const { return words_; }  ///< of the program's command
 
@@ -60,6 +60,7 @@ class Court {
   std::filesystem::path scene() const { return folder_ / ("scene." + options_.format); }
   std::filesystem::path query() const { return folder_ / "query.json"; }
   std::filesystem::path answer() const { return folder_ / "answer"; }
+  std::string scene_text(const Judge_case& asked) const;
   void write_case(const Judge_case& asked) const;
   void run(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const;
   void grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const;

@@ -8,6 +8,8 @@
 #include "page.h"
 #include "table.h"
 
+#include <sightline/io/file.h>
+
 namespace sightline::app {
 
 namespace {
@@ -208,9 +210,10 @@ class Session {
          {"again", command_again(arguments_, fmt::format("{} --cases 1 --seed {}", group.again, c.seed))}});
     if (!smallest_.is_null() && smallest_["faces"] <= c.faces) return;
     smallest_ = failures_.back();
-    if (was_heard_before && !arguments_.keep.empty()) court_.put_back(*heard_case.made, heard_case.kept.said);
-    smallest_["files"] =
-        arguments_.keep.empty() ? std::vector<std::string>() : court_.keep_files(arguments_.keep, "smallest");
+    smallest_["files"] = std::vector<std::string>();
+    if (!arguments_.keep.empty())
+      smallest_["files"] = court_.keep_files(arguments_.keep, "smallest", *heard_case.made,
+                                             was_heard_before ? heard_case.kept.said : court_.said());
     smallest_of_ = &group;
     smallest_case_ = c;
   }
@@ -259,6 +262,7 @@ class Session {
 Exit run(const Judge_arguments& arguments) {
   check_usage(arguments);
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
+  for (const std::string& output : {arguments.json, arguments.html}) check_replaceable(output);  // before the work
   const Court court(arguments.court_options());
   const Shard own = shard_of(arguments.shard);
   std::optional<Kept_cases> kept;

@@ -17,6 +17,8 @@ double number_of(const nlohmann::json& text) { return std::strtod(text.get<std::
 Json optional_json(const std::optional<Face_id>& face) { return face ? Json(*face) : Json(); }
 Json optional_json(const std::optional<int>& winding) { return winding ? Json(*winding) : Json(); }
 
+}  // namespace
+
 Json grade_json(const judge::Grade& grade) {
   Json rays = Json::array(), points = Json::array();
   for (const judge::Wrong_ray& wrong : grade.wrong_rays)
@@ -61,6 +63,8 @@ judge::Grade grade_from_json(const nlohmann::json& json) {
   json.at("judged").get_to(grade.judged);
   return grade;
 }
+
+namespace {
 
 Json judged_json(const Judged& judged) {
   const judge::Kinds& k = judged.kinds;

@@ -13,6 +13,10 @@
 
 namespace sightline::app {
 
+/// A grade as JSON, and back. Errors: exceptions of nlohmann's where it is none.
+Json grade_json(const judge::Grade& grade);
+judge::Grade grade_from_json(const nlohmann::json& json);
+
 /// A case and all that comes of it: it is not asked again, nor is the truth.
 struct Kept_case {
   Judged judged;                         ///< but for the answer

@@ -194,7 +194,7 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   // 1. The cells.
   const Polygon_soup soup = common.read();
   std::optional<Cell_file> file;
-  if (!arguments.cells.empty()) file.emplace(arguments.cells, soup);
+  if (!arguments.cells.empty()) file.emplace(arguments.cells, common, soup);
   Division division = file ? file->division() : arguments.division.division(common, soup);
   const Stopwatch watch;
   const Time_limit limit(common.budget);

@@ -17,7 +17,7 @@ Table_maker::Table_maker(const Pvs_arguments& arguments, const Division& divisio
     : arguments_(arguments), level_(level), limit_(limit), faces_(soup.face_count()), search_(level, options()) {
   question_ =
       fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), division.candidates, division.seed,
-                  arguments.outside ? ", outside" : "", division.question, arguments.cells_too ? ", cells too" : "");
+                  arguments.outside ? ", outside" : "", division.question(), arguments.cells_too ? ", cells too" : "");
   if (arguments.cells_too) cell_search_.emplace(level, options());
   const std::vector<char> asked = asked_cells(level, arguments.outside);
   asked_.assign(asked.begin(), asked.end());
@@ -157,7 +157,7 @@ fs::path Table_maker::kept_folder() const {
 std::optional<Visibility_table> Table_maker::kept(const fs::path& path, const Shard& own) const {
   if (!fs::is_regular_file(path)) return std::nullopt;
   try {
-    const std::string bytes = read_bytes(path);
+    const std::string bytes = read_own_bytes(path);
     Visibility_table table = read_table({path.string(), bytes});
     // It is a block of this table, of its cells and of this share of its faces; else it is asked again.
     if (table.question != question_ || table.cells != asked_) return std::nullopt;

@@ -6,6 +6,7 @@
 
 #include <sightline/harness/report/page.h>
 #include <sightline/harness/report/picture.h>
+#include <sightline/io/file.h>
 
 #include <filesystem>
 #include <iostream>
@@ -186,6 +187,7 @@ Exit run(const Report_arguments& given) {
   const Stopwatch watch;
   const Time_limit time(a.budget);
   const std::vector<Unit> units = units_of(a);
+  for (const std::string& output : {a.json, a.html, a.svg}) check_replaceable(output);  // before the work
   const Json contents = contents_json(a, units);
   std::optional<Kept_units> kept;
   std::map<std::size_t, Answered> done;

@@ -8,6 +8,8 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/quoted.h>
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -71,7 +73,7 @@ std::string cells_text(const Level_cells& level, const Polygon_soup& soup, const
                        const std::vector<std::uint32_t>& regions) {
   Json made{{"scene", scene_name(soup)},         {"by", division_names.at(static_cast<std::size_t>(division.kind))},
             {"candidates", division.candidates}, {"seed", division.seed},
-            {"question", division.question},     {"grid", division.counts},
+            {"question", division.question()},   {"grid", division.counts},
             {"volumes", division.volumes},       {"coarse", division.regions},
             {"tree", tree_json(division.tree)}};
   made["sum"] = sum_of(made);
@@ -107,7 +109,28 @@ void Cell_file::read_tree(const nlohmann::json& tree) {
   }
 }
 
-Cell_file::Cell_file(const std::string& file, const Polygon_soup& soup) : file_(file) {
+/// Makes the division again by the options that the file names; a tree of volumes is taken as it is.
+void Cell_file::read_made(const nlohmann::json& made, const Common& common, const Polygon_soup& soup) {
+  const auto by = std::find(division_names.begin(), division_names.end(), made.at("by").get<std::string>());
+  if (by == division_names.end()) fail("does not say how its cells were made");
+  const auto kind = static_cast<Division::Kind>(by - division_names.begin());
+  Common as_made = common;
+  Division_arguments arguments;
+  made.at("seed").get_to(as_made.seed);
+  made.at("candidates").get_to(arguments.candidates);
+  if (arguments.candidates == 0 || arguments.candidates > 1000) fail("no such number of candidates");
+  arguments.leaves = kind == Division::Kind::leaves;
+  if (kind == Division::Kind::boxes)
+    arguments.grid = fmt::format("{}", fmt::join(made.at("grid").get<std::array<std::uint32_t, 3>>(), ","));
+  if (kind == Division::Kind::regions) made.at("coarse").get_to(arguments.coarse);
+  division_ = arguments.division(as_made, soup);
+  if (kind != Division::Kind::volumes) return;
+  division_.kind = kind;
+  made.at("volumes").get_to(division_.volumes);
+  read_tree(made.at("tree"));
+}
+
+Cell_file::Cell_file(const std::string& file, const Common& common, const Polygon_soup& soup) : file_(file) {
   json_ = parse_json(read_input(file), file);
   if (!json_.is_object() || json_.value("format", nlohmann::json()) != cells_format) fail("is no file of cells");
   if (!json_.contains("made")) fail("does not say how its cells were made, as older files of cells do not");
@@ -119,22 +142,11 @@ Cell_file::Cell_file(const std::string& file, const Polygon_soup& soup) : file_(
                             "cells SCENE --out FILE`, with the same --coordinates and --flip",
                             printable(json_.at("scene").get<std::string>(), 400, false), soup.file));
     if (made.at("sum") != sum_of(made)) fail("is damaged");
-    const auto kind = std::find(division_names.begin(), division_names.end(), made.at("by").get<std::string>());
-    if (kind == division_names.end()) fail("does not say how its cells were made");
-    division_.kind = static_cast<Division::Kind>(kind - division_names.begin());
-    made.at("candidates").get_to(division_.candidates);
-    made.at("seed").get_to(division_.seed);
-    made.at("question").get_to(division_.question);
-    made.at("grid").get_to(division_.counts);
-    made.at("volumes").get_to(division_.volumes);
-    made.at("coarse").get_to(division_.regions);
-    read_tree(made.at("tree"));
-    if (division_.candidates == 0 || division_.candidates > 1000) fail("no such number of candidates");
-    if (division_.kind == Division::Kind::boxes &&
-        std::find(division_.counts.begin(), division_.counts.end(), 0u) != division_.counts.end())
-      fail("its grid has no boxes");
+    read_made(made, common, soup);
   } catch (const Input_error&) {
     throw;
+  } catch (const Usage_error& error) {  // what is not asked of this scene
+    fail(error.what());
   } catch (const std::exception&) {
     fail("is damaged");
   }

@@ -97,6 +97,7 @@ Polygon_soup Common::read() const {
   Read_options options;
   options.round_to_double = coordinates == "double";
   Polygon_soup soup = format.read(scene, options);
+  if (command) command->check_outputs({});  // now that it is known what else was read
   return flip ? generate::faces_reversed(soup) : soup;
 }
 
@@ -236,7 +237,7 @@ std::string to_text(const Json& value, int indent) {
 
 nlohmann::json parse_json(const std::string& text, const std::string& name) {
   try {
-    return nlohmann::json::parse(text, refuse_keys_twice());
+    return json_with_keys_once(text);
   } catch (const std::invalid_argument& error) {
     throw Input_error::of_file(name, std::string(error.what()) + "; write the file again");
   } catch (const nlohmann::json::parse_error& error) {

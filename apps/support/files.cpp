@@ -58,6 +58,7 @@ static void check_output(const Named_file& output, const std::vector<Named_file>
         fmt::format("{} {}: that is the file that standard output goes to, which would be lost; name "
                     "another one, or -",
                     output.option, output.name));
+  if (output.name != "-") check_replaceable(output.name);
 }
 
 void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs,

@@ -18,7 +18,8 @@ struct Named_file {
 
 /// Errors: Usage_error where an output is a file that is read, another output, or where standard output goes, whatever
 /// names they have (links too), and where two are "-". Devices and pipes may be named twice. `many` are outputs too, in
-/// any number: files of a folder. Cost: a look at the disk for each pair but those of two of the many.
+/// any number: files of a folder. std::runtime_error where an output is a file that was read already, as another file
+/// names it: a library of materials, say. Cost: a look at the disk for each pair but those of two of the many.
 void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs,
                  const std::vector<Named_file>& many = {});
 

@@ -3,6 +3,7 @@
 #include "versions.h"
 
 #include <sightline/algorithms/verify/keys_once.h>
+#include <sightline/io/binary.h>
 #include <sightline/io/file.h>
 
 #include <cstdlib>
@@ -41,11 +42,7 @@ void check_resumed(const std::string& file, const nlohmann::json& found, const J
   if (found["asked"].size() != head["asked"].size()) refuse("was begun with other options");
 }
 
-std::string hash_of_bytes(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
-}
+std::string hash_of_bytes(std::string_view bytes) { return fmt::format("{:016x}", sum_of_bytes(bytes)); }
 
 std::string content_hash(const std::string& file) { return hash_of_bytes(read_bytes(file)); }
 
@@ -98,14 +95,14 @@ std::vector<nlohmann::json> Journal::lines() {
   std::vector<nlohmann::json> lines;
   good_ = 0;
   if (!fs::exists(file_)) return lines;
-  const std::string bytes = read_bytes(file_);
+  const std::string bytes = read_own_bytes(file_);
   bool is_first = true;
   for (std::size_t at = 0, end; (end = bytes.find('\n', at)) != std::string::npos; at = end + 1) {
     nlohmann::json line = nlohmann::json::value_t::discarded;
     try {
-      line = nlohmann::json::parse(bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                                   bytes.begin() + static_cast<std::ptrdiff_t>(end), refuse_keys_twice(), false);
+      line = json_with_keys_once(std::string_view(bytes).substr(at, end - at));
     } catch (const std::invalid_argument&) {  // none of ours
+    } catch (const nlohmann::json::exception&) {
     }
     if (is_first) check_resumed(file_, line, head_);
     else if (line.is_discarded()) break;

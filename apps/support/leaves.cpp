@@ -1,11 +1,15 @@
 #include "leaves.h"
 
+#include "journal.h"
+
 #include <sightline/algorithms/levels/coarse.h>
 #include <sightline/algorithms/levels/grid.h>
 #include <sightline/algorithms/levels/volumes.h>
 #include <sightline/io/file.h>
 #include <sightline/io/input.h>
-#include <sightline/io/visibility_table.h>
+#include <sightline/kernel/number.h>
+
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -71,12 +75,10 @@ Division Division_arguments::division(const Common& common, const Polygon_soup& 
   if (leaves) {
     const std::string bytes = compiled_level(common, "--leaves");
     division.kind = Division::Kind::leaves;
-    division.question = ", leaves";
     division.tree = space_tree(read_quake_level({common.scene, bytes}), common.scene);
   }
   if (!grid.empty()) {
     division.kind = Division::Kind::boxes;
-    division.question = ", grid " + grid;
     division.counts = counts();
     try {
       division.tree = even_boxes(soup, division.counts);
@@ -90,9 +92,9 @@ Division Division_arguments::division(const Common& common, const Polygon_soup& 
     of_file.flip = false;  // that turns SCENE alone
     const Polygon_soup read = of_file.read();
     division.kind = Division::Kind::volumes;
-    division.question = fmt::format(", volumes {:016x}", fingerprint(read));
     try {
-      Volume_division found = convex_volumes(read);
+      Progress progress("dividing");
+      Volume_division found = convex_volumes(read, common.within_budget(progress));
       division.tree = std::move(found.tree);
       division.volumes = found.volumes;
     } catch (const std::invalid_argument& error) {
@@ -104,6 +106,29 @@ Division Division_arguments::division(const Common& common, const Polygon_soup& 
     division.regions = coarse;
   }
   return division;
+}
+
+/// All that a tree is.
+static std::string text_of(const Space_tree& tree) {
+  std::string text = std::to_string(tree.root);
+  const auto add = [&](const Rational& x) { text += ' ' + to_string(x); };
+  for (const Space_tree::Node& node : tree.nodes) {
+    std::for_each(node.plane.begin(), node.plane.end(), add);
+    text += fmt::format(" {}\n", fmt::join(node.children, " "));
+  }
+  for (const Exact_point& p : tree.corners) std::for_each(p.begin(), p.end(), add);
+  return text;
+}
+
+std::string Division::question() const {
+  switch (kind) {
+    case Kind::leaves: return ", leaves";
+    case Kind::boxes: return fmt::format(", grid {}", fmt::join(counts, ","));
+    case Kind::volumes: return ", volumes " + hash_of_bytes(fmt::format("{} {}", volumes, text_of(tree)));
+    case Kind::none:
+    case Kind::regions: break;
+  }
+  return "";
 }
 
 std::vector<std::uint32_t> Division::groups(const Level_cells& level) const {

@@ -19,7 +19,6 @@ namespace sightline::app {
 /// What divides space, and is asked about beside cells.
 struct Division {
   enum class Kind { none, leaves, boxes, volumes, regions } kind = Kind::none;
-  std::string question;  ///< what a table has to name: it is another one without
   Space_tree tree;
   std::array<std::uint32_t, 3> counts{};  ///< of boxes
   std::uint32_t volumes = 0;
@@ -27,6 +26,9 @@ struct Division {
   unsigned candidates = 5;  ///< of the tree of faces, with its seed
   std::uint64_t seed = 1;
   std::vector<std::uint32_t> known_regions;  ///< by cell, where they are known already
+
+  /// What a table has to name: it is another one without. Of the tree where that was given.
+  std::string question() const;
 
   /// By cell the box, volume or region that it is in; no_cell: none.
   std::vector<std::uint32_t> groups(const Level_cells& level) const;

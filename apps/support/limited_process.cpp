@@ -43,14 +43,24 @@ void set_limit(int what, rlim_t most) {
   setrlimit(static_cast<__rlimit_resource_t>(what), &limit);
 }
 
-/// In the child, between fork and exec: only what is safe there. Does not return.
-[[noreturn]] void become(const std::vector<char*>& argv, int input, int output, int report, rlim_t processor_seconds) {
+/// Of a process that is killed by the clock: what ends it if it escapes from its group.
+rlim_t processor_seconds(const Process_limits& limits) {
+  return static_cast<rlim_t>(std::min(1e9, limits.seconds * std::max(1u, std::thread::hardware_concurrency()))) + 2;
+}
+
+/// In the child: a group of its own, which ends with this process.
+void keep_apart(rlim_t processor_seconds) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  signal(SIGXFSZ, SIG_DFL);
   set_limit(RLIMIT_CORE, 0);
-  set_limit(RLIMIT_FSIZE, rlim_t{256} << 20);
   set_limit(RLIMIT_CPU, processor_seconds);
+}
+
+/// In the child, between fork and exec: only what is safe there. Does not return.
+[[noreturn]] void become(const std::vector<char*>& argv, int input, int output, int report, rlim_t processor_seconds) {
+  keep_apart(processor_seconds);
+  signal(SIGXFSZ, SIG_DFL);
+  set_limit(RLIMIT_FSIZE, rlim_t{256} << 20);
   dup2(input, 0);
   dup2(output, 1);
   dup2(output, 2);
@@ -122,34 +132,11 @@ std::string shell_word(const std::string& text) {
   return word + "'";
 }
 
-Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits,
-                        const std::string& output_file) {
-  std::vector<char*> argv;
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  Descriptor input(open("/dev/null", O_RDONLY | O_CLOEXEC)),
-      output(open(output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("no pipe: ") + std::strerror(errno));
-  Descriptor from(ends[0]), to(ends[1]);
-
-  // 1. Start it. The pipe closes by itself once the program runs, so that nothing of this process is measured.
+/// Waits for the end of a child, looks at its memory now and then, and kills it, with all that it started, where it is
+/// over.
+static Process_end end_of(pid_t child, const Process_limits& limits) {
+  // 1. Wait. The system's own figure is of use where it is above what this process had when it forked.
   const std::uint64_t own = process_memory("self", "VmHWM");
-  const auto processor_seconds =
-      static_cast<rlim_t>(std::min(1e9, limits.seconds * std::max(1u, std::thread::hardware_concurrency()))) +
-      2;  // ends what escapes from the group
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error(std::string("no process: ") + std::strerror(errno));
-  if (child == 0) become(argv, input.number, output.number, to.number, processor_seconds);
-  setpgid(child, child);
-  to.close_now();
-  int error = 0;
-  if (read(from.number, &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
-    waitpid(child, nullptr, 0);
-    throw std::runtime_error("'" + words[0] + "' cannot be started: " + std::strerror(error));
-  }
-
-  // 2. Wait, and look at its memory now and then.
   const Stopwatch watch;
   Process_end end;
   bool killed = false;
@@ -172,7 +159,7 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
   end.seconds = watch.seconds();
   kill(-child, SIGKILL);  // what it left running
 
-  // 3. What became of it. The system's own figure is of use where it is above what this process had when it forked.
+  // 2. What became of it.
   if (const std::uint64_t most = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; most > own)
     end.bytes = std::max(end.bytes, most);
   if (!killed) {
@@ -180,8 +167,66 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
     end.number = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
     if (end.bytes > limits.bytes) end.kind = Process_end::out_of_memory;
   }
+  return end;
+}
+
+/// A child of this process, in a group of its own; 0 in the child.
+static pid_t forked() {
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error(std::string("no process: ") + std::strerror(errno));
+  if (child > 0) setpgid(child, child);
+  return child;
+}
+
+Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits,
+                        const std::string& output_file) {
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  Descriptor input(open("/dev/null", O_RDONLY | O_CLOEXEC)),
+      output(open(output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("no pipe: ") + std::strerror(errno));
+  Descriptor from(ends[0]), to(ends[1]);
+
+  // 1. Start it. The pipe closes by itself once the program runs, so that nothing of this process is measured.
+  const rlim_t seconds = processor_seconds(limits);
+  const pid_t child = forked();
+  if (child == 0) become(argv, input.number, output.number, to.number, seconds);
+  to.close_now();
+  int error = 0;
+  if (read(from.number, &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
+    waitpid(child, nullptr, 0);
+    throw std::runtime_error("'" + words[0] + "' cannot be started: " + std::strerror(error));
+  }
+
+  // 2. Wait for its end.
+  Process_end end = end_of(child, limits);
   end.said = tail_of(output_file);
   return end;
+}
+
+Process_end work_limited(const std::function<std::string()>& work, const Process_limits& limits,
+                         const std::filesystem::path& output) {
+  Process_limits with_own = limits;
+  with_own.bytes += process_memory("self", "VmRSS");
+  Descriptor nowhere(open("/dev/null", O_WRONLY | O_CLOEXEC));
+  const rlim_t seconds = processor_seconds(limits);
+  const pid_t child = forked();
+  if (child > 0) return end_of(child, with_own);
+  // The copy. It leaves without cleaning up: what there is belongs to this process, which does.
+  keep_apart(seconds);
+  dup2(nowhere.number, 1);
+  dup2(nowhere.number, 2);
+  int code = 1;
+  try {
+    const std::string answer = work();
+    std::ofstream out(output, std::ios::binary);
+    out << answer << std::flush;
+    code = out ? 0 : 1;
+  } catch (...) {
+  }
+  _exit(code);
 }
 
 Temporary_folder::Temporary_folder() {

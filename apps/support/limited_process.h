@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ std::string shell_word(const std::string& text);
 /// all that it started. It cannot write files beyond 256 MiB, nor leave a core. Errors: std::runtime_error where it
 /// cannot be started, saying why.
 Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits, const std::string& output);
+
+/// Does work in a copy of this process, within limits beyond the memory that this one has, and writes what it returns
+/// into a file, which is whole where the copy exits with 0; what it prints is lost. Pre: `work` needs no threads, as
+/// the copy has none of this one's. Errors: std::runtime_error where there can be no process.
+Process_end work_limited(const std::function<std::string()>& work, const Process_limits& limits,
+                         const std::filesystem::path& output);
 
 /// A folder that is gone at the end.
 class Temporary_folder {

@@ -1,7 +1,10 @@
 #include <sightline/harness/generate/random.h>
 
 #include <locale>
+#include <random>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 
 namespace sightline::generate {
 
@@ -23,7 +26,12 @@ void Random::set_state(const std::string& text) {
   std::istringstream in(text);
   in.imbue(std::locale::classic());
   std::mt19937_64 engine;
-  if (!(in >> engine)) throw std::invalid_argument("no state of a sequence of random numbers");
+  // The last number is a place among the others, which the library does not look at.
+  const std::string place = text.substr(text.find_last_of(' ') + 1);
+  const bool has_place = !place.empty() && place.size() <= 3 &&
+                         place.find_first_not_of("0123456789") == std::string::npos &&
+                         std::stoul(place) <= std::mt19937_64::state_size;
+  if (!has_place || !(in >> engine)) throw std::invalid_argument("no state of a sequence of random numbers");
   engine_ = engine;
 }
 

@@ -89,8 +89,14 @@ std::vector<Exact_point> points_from_json(const nlohmann::json& value, const std
 namespace protocol_detail {
 
 Answer Answer_reader::from_json(const std::string& text) {
-  const nlohmann::json value = nlohmann::json::parse(text, refuse_keys_twice(), false);
-  if (value.is_discarded()) fail("begins with { but is not JSON");
+  const nlohmann::json value = [&] {
+    try {
+      return json_with_keys_once(text);
+    } catch (const nlohmann::json::exception&) {
+      fail("begins with { but is not JSON");
+    }
+  }();
+  check_integers(text);
   const std::string key = question_ == Question::order ? "order" : question_ == Question::trace ? "first" : "visible";
   const auto abstained = value.find("abstained");
   const bool from_all = abstained != value.end() && *abstained == "all";
@@ -319,6 +325,30 @@ Query query_from_json(const nlohmann::json& value) {
   if (!member("two_sided").is_boolean()) protocol_detail::fail("query: \"two_sided\" is neither true nor false");
   query.two_sided = member("two_sided").get<bool>();
   return query;
+}
+
+void check_integers(const std::string& text) {
+  struct Integers final : nlohmann::json_sax<nlohmann::json> {
+    bool number_float(double, const std::string& digits) override {
+      if (digits.find_first_of(".eE") == std::string::npos)
+        protocol_detail::fail("the integer " + printable(digits, 40, false) +
+                              " is beyond 64 bits; write it as a string, between quotes");
+      return true;
+    }
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(std::int64_t) override { return true; }
+    bool number_unsigned(std::uint64_t) override { return true; }
+    bool string(std::string&) override { return true; }
+    bool binary(binary_t&) override { return true; }
+    bool start_object(std::size_t) override { return true; }
+    bool end_object() override { return true; }
+    bool key(std::string&) override { return true; }
+    bool start_array(std::size_t) override { return true; }
+    bool end_array() override { return true; }
+    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+  } integers;
+  nlohmann::json::sax_parse(text, &integers);
 }
 
 Answer read_answer(const std::string& text, Question question, std::size_t faces, std::size_t rays) {

@@ -49,8 +49,8 @@ struct Answer {
   std::vector<Face_id> abstained;             ///< sorted; of trace: numbers of rays
 };
 
-/// A number of JSON, as the double that it reads as, or a string "p/q". Errors of this and the next two:
-/// std::invalid_argument that says what is wrong, in one line that begins with `at`. Exact: yes.
+/// A number of JSON: an integer of 64 bits, or the double that it reads as; or a string "p/q". Errors of this and the
+/// next two: std::invalid_argument that says what is wrong, in one line that begins with `at`. Exact: yes.
 Rational number_from_json(const nlohmann::json& value, const std::string& at);
 
 /// A point [x, y, z].
@@ -68,11 +68,15 @@ Json to_json(const Query& query);
 /// A query as to_json() writes it. Errors: std::invalid_argument that says what is wrong. Exact: yes.
 Query query_from_json(const nlohmann::json& value);
 
+/// Readers of JSON round integers beyond 64 bits, as decimals, to a double. Errors: std::invalid_argument where a text,
+/// which is JSON, has one.
+void check_integers(const std::string& text);
+
 /// What a program wrote, about a scene of so many faces and so many rays. Text that begins with { is JSON, all other
 /// text has a face a line; an empty one sees nothing. Of trace each line is of a ray: a face, `none` or `abstained`. Of
 /// boolean it is OFF, with coordinates p/q where it has a /, or `abstained`.
 /// Errors: std::invalid_argument that says in one line what is wrong: unknown faces, a face twice in an order, one both
-/// answered and abstained from. Exact: yes.
+/// answered and abstained from, integers beyond 64 bits. Exact: yes.
 Answer read_answer(const std::string& text, Question question, std::size_t faces, std::size_t rays = 0);
 
 }  // namespace sightline::judge

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -170,27 +171,58 @@ std::vector<Triangulation::Vertex_handle> insert_points(Triangulation& triangula
   std::vector<Triangulation::Vertex_handle> vertex(sites.size());
   Triangulation::Face_handle near;
   for (const std::size_t i : order) {
-    vertex[i] = triangulation.insert(sites[i], near);
+    Triangulation::Locate_type type = Triangulation::OUTSIDE_AFFINE_HULL;
+    int place = 0;
+    const Triangulation::Face_handle at = triangulation.locate(sites[i], type, place, near);
+    // CGAL inserts what is there, too, and then looks at all edges of it.
+    vertex[i] = type == Triangulation::VERTEX && triangulation.dimension() > 0
+                    ? at->vertex(place)
+                    : triangulation.insert(sites[i], type, at, place);
     vertex[i]->info().value = std::min(vertex[i]->info().value, static_cast<std::uint32_t>(i));
     near = vertex[i]->face();
   }
   return vertex;
 }
 
-using Edges = std::vector<std::array<Triangulation::Vertex_handle, 2>>;
+/// An edge of the contour, from the end that is on fewer edges: CGAL turns about that one to find it. `times`: how
+/// often the contour runs along it that way, less the other way.
+struct Edge {
+  Triangulation::Vertex_handle from, to;
+  int times;
+};
+using Edges = std::vector<Edge>;
 
-/// The contour's edges as pairs of vertices: those that close a loop come last.
+/// The contour's edges, each once: those that close a loop come last.
 Edges edges_of(const std::vector<Loop>& contour, const std::vector<std::uint32_t>& used,
                const std::vector<Triangulation::Vertex_handle>& vertex) {
+  // 1. The vertices of each run along an edge.
   const auto vertex_of = [&](std::uint32_t p) {
     const auto place = std::lower_bound(used.begin(), used.end(), p);
     return vertex[static_cast<std::size_t>(place - used.begin())];
   };
+  Edges runs;
+  for (const Loop& loop : contour)
+    for (std::size_t i = 0; i + 1 < loop.size(); ++i) runs.push_back({vertex_of(loop[i]), vertex_of(loop[i + 1]), 1});
+  for (const Loop& loop : contour)
+    if (loop.size() > 1) runs.push_back({vertex_of(loop.back()), vertex_of(loop.front()), 1});
+
+  // 2. Each edge once, where it is first.
+  std::vector<std::uint32_t> uses(vertex.size());
+  for (const Edge& run : runs)
+    for (const Triangulation::Vertex_handle v : {run.from, run.to}) ++uses[v->info().value];
+  std::map<std::array<std::uint32_t, 2>, std::size_t> places;
   Edges edges;
-  for (const Loop& loop : contour)
-    for (std::size_t i = 0; i + 1 < loop.size(); ++i) edges.push_back({vertex_of(loop[i]), vertex_of(loop[i + 1])});
-  for (const Loop& loop : contour)
-    if (loop.size() > 1) edges.push_back({vertex_of(loop.back()), vertex_of(loop.front())});
+  for (Edge run : runs) {
+    std::uint32_t from = run.from->info().value, to = run.to->info().value;
+    if (uses[to] < uses[from] || (uses[to] == uses[from] && places.contains({to, from}))) {
+      std::swap(run.from, run.to);
+      std::swap(from, to);
+      run.times = -1;
+    }
+    const auto [at, is_new] = places.try_emplace({from, to}, edges.size());
+    if (is_new) edges.push_back(run);
+    else edges[at->second].times += run.times;
+  }
   return edges;
 }
 
@@ -198,7 +230,7 @@ Edges edges_of(const std::vector<Loop>& contour, const std::vector<std::uint32_t
 /// then false.
 bool force(Triangulation& triangulation, const Edges& edges) {
   try {
-    for (const auto& [a, b] : edges) triangulation.insert_constraint(a, b);
+    for (const Edge& edge : edges) triangulation.insert_constraint(edge.from, edge.to);
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
     return false;
   }
@@ -218,14 +250,15 @@ std::vector<Triangulation::Face_handle> numbered_faces(Triangulation& triangulat
 /// How often the contour has each triangle on its left, along each side: +1 forth, -1 back.
 std::vector<std::array<int, 3>> count_runs(const Triangulation& triangulation, const Edges& edges, std::size_t faces) {
   std::vector<std::array<int, 3>> runs(faces, {0, 0, 0});
-  for (auto [a, b] : edges)
-    while (a != b) {
+  for (const Edge& edge : edges)
+    for (Triangulation::Vertex_handle a = edge.from, b = edge.to; a != b;) {
       Triangulation::Vertex_handle stop;
       Triangulation::Face_handle f;
       int i = 0;
       if (!triangulation.includes_edge(a, b, stop, f, i))
         throw std::logic_error("convex_parts: a contour edge is not in its triangulation");
-      const int sense = f->vertex(Triangulation::ccw(i)) == a ? 1 : -1;  // side i of f runs from ccw(i) to cw(i)
+      const bool is_along = f->vertex(Triangulation::ccw(i)) == a;  // side i of f runs from ccw(i) to cw(i)
+      const int sense = is_along ? edge.times : -edge.times;
       const Triangulation::Face_handle g = f->neighbor(i);
       runs[f->info().value][static_cast<std::size_t>(i)] += sense;
       runs[g->info().value][static_cast<std::size_t>(triangulation.mirror_index(f, i))] -= sense;

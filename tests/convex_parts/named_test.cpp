@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <ctime>
 #include <functional>
 #include <random>
 
@@ -346,4 +348,29 @@ TEST(Convex_parts, ten_thousand_vertices_in_less_than_a_second_or_two) {
     EXPECT_LT(seconds, 60) << name;  // generous: sanitizers and shared machines
     std::printf("  %-12s %6zu corners %6zu pieces %.3f s\n", name, p.loops[0].size(), parts.pieces.size(), seconds);
   }
+}
+
+/// Where a contour returns to one corner, a triangulation has as many edges there: none is looked for among all others.
+TEST(Convex_parts, contours_that_return_to_one_corner_often_take_no_square_of_it) {
+  const auto seconds_of = [](std::size_t petals, bool has_own_points) {
+    Polygon p;
+    p.points.push_back({Integer(0), Integer(0)});
+    Loop& loop = p.loops.emplace_back();
+    for (std::size_t i = 0; i < petals; ++i) {
+      loop.push_back(has_own_points ? static_cast<std::uint32_t>(p.points.size()) : 0);
+      if (has_own_points) p.points.push_back(p.points[0]);
+      for (const double part : {0.0, 0.5}) {
+        const double angle = 6.283185307179586 * (static_cast<double>(i) + part) / static_cast<double>(petals),
+                     r = 1e7 * (1 + static_cast<double>(7919 * i % 101) / 300);
+        loop.push_back(static_cast<std::uint32_t>(p.points.size()));
+        p.points.push_back({Integer(std::lround(r * std::cos(angle))), Integer(std::lround(r * std::sin(angle)))});
+      }
+    }
+    const std::clock_t start = std::clock();
+    EXPECT_EQ(parts_of(p).pieces.size(), petals);
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  // Eight times as many: the square of it would take 64 times as long.
+  for (const bool has_own_points : {false, true})
+    EXPECT_LT(seconds_of(16000, has_own_points), 32 * seconds_of(2000, has_own_points) + 0.1);
 }

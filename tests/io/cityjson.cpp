@@ -6,10 +6,17 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace cityjson {
 namespace {
@@ -29,6 +36,23 @@ sightline::Polygon_soup converted(const std::string& name, const std::string& te
   sightline::Polygon_soup soup = sightline::read_scene(folder / (name.substr(0, name.find('.')) + ".qoff"));
   fs::remove_all(folder);
   return soup;
+}
+/// How the script ends that is given a city with these vertices, of which the first three are a face's, and what it
+/// says.
+std::string said_of(const std::string& vertices, const std::string& face = "0, 1, 2") {
+  const fs::path folder = fs::temp_directory_path() / ("sightline-cityjson-" + std::to_string(std::random_device()()));
+  fs::create_directory(folder);
+  std::ofstream(folder / "city.json")
+      << R"({"CityObjects": {"a": {"geometry": [{"type": "MultiSurface", "boundaries": [[[)" << face
+      << R"(]]]}]}}, "vertices": )" << vertices << "}";
+  const std::string command = "python3 '" SIGHTLINE_SOURCE_DIR "/bench/cityjson.py' '" +
+                              (folder / "city.json").string() + "' --out '" + folder.string() + "' 2>'" +
+                              (folder / "said").string() + "'";
+  const int status = std::system(command.c_str());
+  std::ostringstream said;
+  said << WEXITSTATUS(status) << ' ' << std::ifstream(folder / "said").rdbuf();
+  fs::remove_all(folder);
+  return said.str();
 }
 bool has_python() { return std::system("command -v python3 >/dev/null 2>&1") == 0; }
 
@@ -74,6 +98,28 @@ TEST(City_json, of_a_sequence_is_all_its_features_by_the_transform_of_its_first_
   EXPECT_EQ(corner(soup, 0, 1), thousandths(500, 0, 1000));
   EXPECT_EQ(corner(soup, 3, 2), thousandths(1500, 0, 1000));
   EXPECT_EQ(corner(soup, 3, 1), thousandths(0, 1500, 1000));
+}
+
+TEST(City_json, that_is_none_is_refused_in_one_line) {
+  if (!has_python()) GTEST_SKIP() << "needs python3";
+  const std::string three = "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]";
+  EXPECT_EQ(said_of(three).substr(0, 2), "0 ");
+  for (const auto& [vertices, face, why] : std::vector<std::array<std::string, 3>>{
+           {three, "0, 1, -1", "no vertex -1 of 3"},
+           {three, "0, 1, 3", "no vertex 3 of 3"},
+           {three, "0, 1, 1.5", "no vertex 3/2 of 3"},
+           {three, "0, 1, \"2\"", "no vertex 2 of 3"},
+           {three, "0, 1, true", "no vertex True of 3"},
+           {"[[0, 0, 0], [1e99999999, 0, 0], [0, 1, 0]]", "0, 1, 2", "the exponent of 1e99999999"},
+           {"[[0, 0, 0], [NaN, 0, 0], [0, 1, 0]]", "0, 1, 2", "NaN is no finite number"},
+           {"[[0, 0, 0], [1, 0], [0, 1, 0]]", "0, 1, 2", "three numbers"},
+           {"7", "0, 1, 2", ""},
+           {"[[", "0, 1, 2", ""}}) {
+    const std::string said = said_of(vertices, face);
+    EXPECT_EQ(said.substr(0, 15), "3 cityjson.py: ") << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_NE(said.find(why), std::string::npos) << said;
+  }
 }
 
 }  // namespace

@@ -60,6 +60,15 @@ TEST_F(Files, beside_which_something_stands_are_written_all_the_same) {
   EXPECT_EQ(count(), 3);
 }
 
+TEST_F(Files, with_the_longest_names_are_written_too) {
+  const std::string longest(255, 'n');
+  write_bytes(path(longest), "old");
+  write_bytes(path(longest), "new");
+  EXPECT_EQ(read_bytes(path(longest)), "new");
+  EXPECT_EQ(count(), 1);
+  expect_refused(path(longest + 'n'), "File name too long");
+}
+
 TEST_F(Files, written_as_streams_are_whole_or_not_there) {
   const std::string line = "0123456789\n";
   write_stream(path("a"), [&](std::ostream& out) {

@@ -258,6 +258,22 @@ TEST(Read_glb, numbers_out_of_proportion_are_refused) {
   EXPECT_EQ(why(gltf), "accepted");
 }
 
+/// Nodes that turn points about askew axes, each with a denominator of its own: all come to lie on one grid.
+TEST(Read_glb, grids_out_of_proportion_are_refused) {
+  const auto turned = [](int count) {
+    Glb gltf(std::vector<float>(3 * 600, 0.75f));
+    gltf.tree["nodes"] = Tree::array();
+    gltf.tree["scenes"][0]["nodes"] = Tree::array();
+    for (int k = 0; k < count; ++k) {
+      gltf.tree["nodes"].push_back({{"mesh", 0}, {"rotation", {0.123456789012345 + 0.001 * k, 0.2, 0.3, 0.9}}});
+      gltf.tree["scenes"][0]["nodes"].push_back(k);
+    }
+    return why(gltf);
+  };
+  EXPECT_EQ(turned(3), "accepted");
+  EXPECT_NE(turned(40).find("long out of all proportion to the file"), std::string::npos) << turned(40);
+}
+
 TEST(Read_glb, copies_out_of_proportion_are_refused) {
   std::vector<float> many(3 * 3000);
   Glb gltf(many);

@@ -10,8 +10,12 @@
 #include <sightline/kernel/vectors.h>
 
 #include <array>
+#include <cstddef>
+#include <random>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace sightline::test {
 namespace {
@@ -152,6 +156,38 @@ TEST(Quake_map, errors_name_the_line) {
   EXPECT_TRUE(error_of(many, map));
 }
 
+TEST(Quake_map, numbers_out_of_proportion_are_an_error) {
+  const std::string long_one = "1" + std::string(400, '7');
+  expect_error_at(10, 1, "bits, more than 1024; give its points with fewer digits",
+                  entity("worldspawn", {box("1", "1", "1") + side("0 0 " + long_one, "0 1 0", "1 0 0")}), map);
+  // Cubes whose sides are a little askew: each of their corners has a denominator of its own.
+  std::mt19937 random(1);
+  const auto askew = [&](const std::array<int, 3>& p) {
+    std::string text;
+    for (const int x : p) text += std::to_string(x) + '.' + std::to_string(100000 + random() % 900000) + ' ';
+    return text;
+  };
+  std::vector<std::string> cubes;
+  for (int k = 0; k < 120; ++k) {
+    std::string sides;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int at : {0, 100}) {
+        std::array<std::array<int, 3>, 3> points{};
+        for (std::array<int, 3>& p : points) p[static_cast<std::size_t>(axis)] = at;
+        points[1][static_cast<std::size_t>((axis + (at == 0 ? 2 : 1)) % 3)] = 100;
+        points[2][static_cast<std::size_t>((axis + (at == 0 ? 1 : 2)) % 3)] = 100;
+        sides += side(askew(points[0]), askew(points[1]), askew(points[2]));
+      }
+    cubes.push_back(sides);
+  }
+  const auto found = error_of(entity("worldspawn", cubes), map);
+  ASSERT_TRUE(found);
+  EXPECT_NE(std::string(found->what()).find("long out of all proportion to the file"), std::string::npos)
+      << found->what();
+  cubes.resize(10);
+  EXPECT_NO_THROW(read_scene(entity("worldspawn", cubes), map, "scene"));
+}
+
 // ---- Compiled levels
 
 struct Tiny_level {
@@ -270,6 +306,21 @@ TEST(Quake_bsp, what_names_nothing_is_an_error_at_its_byte) {
   EXPECT_TRUE(error_of(broken([](Tiny_level& level) { level.leaves[1].second = 4; }), bsp));
   EXPECT_TRUE(error_of(broken([](Tiny_level& level) { level.rows = std::string("\0\0\0\x01", 4); }), bsp));
   EXPECT_TRUE(error_of(broken([](Tiny_level& level) { level.visible_leaves = 4; }), bsp));
+}
+
+/// Each row is as long as the lump in the worst case: a lump of many that begin in turn takes its square to read.
+TEST(Quake_bsp, rows_that_overlap_are_an_error) {
+  Tiny_level level;
+  level.leaves.assign(21, {-1, -1});
+  level.visible_leaves = 20;  // rows of three bytes
+  level.rows = std::string(7, '\x01');
+  level.leaves[1].second = level.leaves[2].second = 1;
+  level.leaves[3].second = 4;
+  EXPECT_NO_THROW(read_scene(level.bytes(), bsp, "scene"));
+  level.leaves[4].second = 2;
+  const auto error = error_of(level.bytes(), bsp);
+  ASSERT_TRUE(error);
+  EXPECT_NE(std::string(error->what()).find("overlaps that of another leaf"), std::string::npos) << error->what();
 }
 
 TEST(Quake_bsp, lumps_that_overlap_are_an_error) {

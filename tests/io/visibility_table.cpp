@@ -1,11 +1,14 @@
 // Tables of what cells see: rows of bits, files, parts.
 
+#include <sightline/io/binary.h>
 #include <sightline/io/bit_rows.h>
 #include <sightline/io/visibility_table.h>
 
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
+#include <vector>
 
 namespace sightline {
 namespace {
@@ -35,6 +38,23 @@ TEST(Bit_rows, come_back) {
       EXPECT_FALSE(unpacked_row(std::string_view(packed).substr(0, cut), 0, row.size()));
   }
   EXPECT_FALSE(unpacked_row(std::string("\0\0\x01", 3), 0, 9));  // a run of none
+}
+
+/// The bytes of a table without their sum; and with it.
+std::string without_sum(std::string bytes) {
+  bytes.resize(bytes.size() - 8);
+  return bytes;
+}
+std::string with_sum(std::string bytes) {
+  store(bytes, sum_of_bytes(bytes));
+  return bytes;
+}
+/// As older programs wrote it.
+std::string in_old_format(const std::string& bytes) {
+  std::string old = without_sum(bytes);
+  const std::size_t digit = old.find('\n') - 1;
+  old[digit] = static_cast<char>(old[digit] - 2);
+  return old;
 }
 
 Visibility_table some_table() {
@@ -71,7 +91,7 @@ Visibility_table some_table_with_cells() {
 TEST(Visibility_table, with_cells_comes_back_symmetric) {
   const Visibility_table table = some_table_with_cells();
   const std::string bytes = table_bytes(table);
-  EXPECT_TRUE(bytes.starts_with("sightline pvs 2\n"));
+  EXPECT_TRUE(bytes.starts_with("sightline pvs 4\n"));
   const Visibility_table again = read_table({"t", bytes});
   EXPECT_EQ(again.lower_cells, table.lower_cells);
   ASSERT_EQ(again.rows.size(), table.rows.size());
@@ -84,11 +104,24 @@ TEST(Visibility_table, with_cells_comes_back_symmetric) {
   EXPECT_EQ(table_bytes(again), bytes);
   for (std::size_t size = 0; size < bytes.size(); ++size)
     EXPECT_THROW(read_table({"t", std::string_view(bytes).substr(0, size)}), Input_error) << size;
-  std::string below = bytes;
+  std::string below = without_sum(bytes);
   below.back() = below[below.size() - 2] = '\x01';  // of the last cell: that it sees cell 0, which is below it
-  EXPECT_THROW(read_table({"t", below}), Input_error);
+  EXPECT_THROW(read_table({"t", with_sum(below)}), Input_error);
   below.pop_back();  // and nothing behind it
-  EXPECT_THROW(read_table({"t", below}), Input_error);
+  EXPECT_THROW(read_table({"t", with_sum(below)}), Input_error);
+}
+
+TEST(Visibility_table, with_any_bit_flipped_is_refused_and_older_ones_are_read) {
+  for (const Visibility_table& table : {some_table(), some_table_with_cells()}) {
+    const std::string bytes = table_bytes(table);
+    EXPECT_EQ(with_sum(without_sum(bytes)), bytes);
+    for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+      std::string other = bytes;
+      other[bit / 8] = static_cast<char>(other[bit / 8] ^ (1 << bit % 8));
+      EXPECT_THROW(read_table({"t", other}), Input_error) << bit;
+    }
+    EXPECT_EQ(table_bytes(read_table({"t", in_old_format(bytes)})), bytes);
+  }
 }
 
 /// The part of a table with the faces and lower cells of a shard.
@@ -139,9 +172,9 @@ TEST(Visibility_table, with_cells_is_one_again_of_its_parts) {
 }
 
 TEST(Visibility_table, that_announces_more_than_it_holds_is_refused) {
-  std::string bytes = table_bytes({"", {}, {}, {}});
+  std::string bytes = without_sum(table_bytes({"", {}, {}, {}}));
   for (std::size_t k = 0; k < 4; ++k) bytes[bytes.size() - 8 + k] = '\xFF';  // four thousand million cells
-  EXPECT_THROW(read_table({"t", bytes}), Input_error);
+  EXPECT_THROW(read_table({"t", with_sum(bytes)}), Input_error);
 }
 
 /// The part of a table with the faces of a shard.

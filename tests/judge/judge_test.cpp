@@ -840,6 +840,11 @@ TEST(Rays, that_are_answered_wrongly_are_explained_and_guessed_about) {
 TEST(Numbers, of_json_are_doubles_whole_or_quotients) {
   EXPECT_EQ(judge::number_from_json("1/3", "at"), Rational(1, 3));
   EXPECT_EQ(judge::number_from_json(0.5, "at"), Rational(1, 2));
+  EXPECT_EQ(judge::number_from_json(std::uint64_t{18446744073709551615u}, "at") + 1, Rational("18446744073709551616"));
+  EXPECT_NO_THROW(
+      judge::check_integers("[18446744073709551615, -9223372036854775808, 1e30, 0.1, \"18446744073709551617\"]"));
+  EXPECT_THROW(judge::check_integers("{\"a\": [18446744073709551617]}"), std::invalid_argument);
+  EXPECT_THROW(judge::check_integers("-9223372036854775809"), std::invalid_argument);
   EXPECT_EQ(judge::number_from_json(-3, "at"), Rational(-3));
   EXPECT_EQ(judge::point_from_json({1, "-2/7", 0.25}, "at"), (Exact_point{1, Rational(-2, 7), Rational(1, 4)}));
   EXPECT_THROW(judge::number_from_json("1/0", "at"), std::invalid_argument);

@@ -5,9 +5,13 @@
 #include <sightline/algorithms/levels/coarse.h>
 #include <sightline/algorithms/levels/volumes.h>
 #include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/transform.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <initializer_list>
 #include <set>
 #include <stdexcept>
@@ -106,6 +110,23 @@ TEST(Volumes, that_overlap_are_told_by_a_face_of_each) {
   EXPECT_EQ(refusal_of(boxes_with_own_points({box(0, 0, 0, 4), box(1, 1, 1, 1)})).substr(0, 17), "face 0 and face 6");
   EXPECT_EQ(refusal_of(boxes_with_own_points({box(0, 0, 0, 2), box(2, 0, 0, 2), box(0, 2, 1, 2), box(2, 2, 2, 9)})),
             "");
+}
+
+/// Two round volumes of many sides, which only few planes part where they are apart at all.
+TEST(Volumes, of_many_sides_are_told_apart_in_time_and_a_budget_ends_them) {
+  const Polygon_soup ball = generate::convex_sphere(250);
+  const auto two_balls = [&](const Rational& way) {
+    return generate::joined(
+        std::array{ball, generate::mapped(ball, [&](Point_id, const Exact_point& p) {
+                     return Exact_point{Rational(p[0] + way), Rational(p[1] + way), Rational(p[2] + way)};
+                   })});
+  };
+  Rational size = 0;
+  for (Point_id p = 0; p < ball.point_count(); ++p) size = std::max(size, Rational(2 * ball.point(p)[0]));
+  EXPECT_NE(refusal_of(two_balls(size / 2)), "");
+  EXPECT_EQ(refusal_of(two_balls(size * Rational(5, 8))), "");
+  EXPECT_THROW(convex_volumes(two_balls(size), [](std::size_t, std::size_t) { throw std::domain_error("over"); }),
+               std::domain_error);
 }
 
 /// Tetrahedra whose edges pass each other: no side of either parts them.

@@ -103,6 +103,21 @@ TEST_F(Fuzz, goes_on_where_it_was_and_does_nothing_again) {
   refused(same, "version 0.0.9");
   with("random", "1 2 3");
   refused(same, "damaged");
+  const std::string random = state["random"].get<std::string>();
+  for (const auto& [key, value] : std::vector<std::pair<const char*, Json>>{
+           {"random", random.substr(0, random.find_last_of(' ') + 1) + "313"},  // a place behind all
+           {"drawn", -1},
+           {"drawn", 1e30},
+           {"drawn", 2.5},
+           {"seconds", -1},
+           {"finding", {{"case", 7}}}}) {
+    with(key, value);
+    refused(same, "damaged");
+  }
+  Json counters = state["counters"];
+  counters["scenes"] = std::uint64_t{1} << 63;
+  with("counters", counters);
+  refused(same, "damaged");
   file("io.json.done", "{");
   refused(same, "io.json.done");
   for (const std::vector<std::string>& words :

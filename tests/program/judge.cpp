@@ -2,6 +2,8 @@
 
 #include "program.h"
 
+#include <array>
+
 namespace program {
 
 class Judge : public Program {
@@ -54,6 +56,47 @@ TEST_F(Judge, marks_what_became_of_a_program) {
     EXPECT_EQ(mark("x=0123456789012345; while true; do x=$x$x; done", "exact", done, {"--memory", "40"}),
               "out of memory");
   }
+}
+
+TEST_F(Judge, keeps_what_was_asked_whatever_a_program_does_to_its_files) {
+  const std::vector<std::string> options{"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "1"};
+  const auto kept = [&](const std::string& script, const std::string& folder) {
+    std::vector<std::string> words = options;
+    words.insert(words.end(), {"--keep", path(folder).string()});
+    judge(shell(script), words, disagreement);
+    return read_file(path(folder + "/smallest.off")) + read_file(path(folder + "/smallest.json")) +
+           read_file(path(folder + "/smallest.answer"));
+  };
+  const std::string asked = kept("echo > $3", "asked");
+  EXPECT_EQ(kept("echo OFF > $1; rm $2; echo > $3", "changed"), asked);
+  EXPECT_EQ(asked.substr(0, 3), "OFF");
+}
+
+TEST_F(Judge, grades_within_the_limits_of_the_program) {
+  // Thousands of tetrahedra: each edge is held to each corner.
+  std::string points, faces;
+  constexpr int count = 3000;
+  for (int k = 0; k < count; ++k) {
+    const std::string x = std::to_string(3 * k), more = std::to_string(3 * k + 1);
+    points += x + " 0 0\n" + more + " 0 0\n" + x + " 1 0\n" + x + " 0 1\n";
+    for (const auto& [a, b, c] : {std::array{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+      faces +=
+          "3 " + std::to_string(4 * k + a) + ' ' + std::to_string(4 * k + b) + ' ' + std::to_string(4 * k + c) + '\n';
+  }
+  const std::string large =
+      file("large", "OFF\n" + std::to_string(4 * count) + ' ' + std::to_string(4 * count) + " 0\n" + points + faces);
+  const auto marked = [&](const std::string& query, const std::string& family, const std::string& answer,
+                          const std::vector<std::string>& limit) {
+    std::vector<std::string> options{"--query", query, "--contract", "exact", "--families", family, "--ulps", "0"};
+    options.insert(options.end(), {"--cases", "1"});
+    options.insert(options.end(), limit.begin(), limit.end());
+    return judge(shell("cp " + answer + " $3"), options, done)["result"]["total"]["cases"];
+  };
+  EXPECT_EQ(marked("boolean", "boxes", large, {"--time", "0.3"})["timed out"], 1);
+  if (sanitized) return;
+  std::string much = "{\"order\": [{}";
+  for (int k = 0; k < 250'000; ++k) much += ",{}";
+  EXPECT_EQ(marked("order", "stacked", file("much", much + "]}"), {"--memory", "10"})["out of memory"], 1);
 }
 
 TEST_F(Judge, ends_what_a_program_leaves_running) {
@@ -525,10 +568,10 @@ TEST_F(Judge, prints_what_the_page_shows) {
 }
 
 TEST_F(Judge, says_what_is_wrong_with_a_command_line) {
-  const auto complains = [&](std::vector<std::string> options, const std::string& about) {
+  const auto complains = [&](std::vector<std::string> options, const std::string& about, int code = usage) {
     options.insert(options.begin(), "judge");
     const Outcome r = run(options);
-    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_EQ(r.code, code) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;
     EXPECT_NE(r.err.find(about), std::string::npos) << r;
   };
@@ -544,7 +587,10 @@ TEST_F(Judge, says_what_is_wrong_with_a_command_line) {
   complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "none_such"}, "--families");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--ulps", "1.5"}, "--ulps");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", path("nowhere").string()},
-            "--scenes");
+            "nowhere: there is no such folder or file", bad_input);
+  fs::create_directory(path("empty"));
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", path("empty").string()},
+            "the folder holds no scene", bad_input);
   complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--families", "stacked"},
             "exclude each other");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "stacked", "--reduce", "5"},
@@ -552,7 +598,16 @@ TEST_F(Judge, says_what_is_wrong_with_a_command_line) {
   complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "stacked", "--ask", tower()},
             "--scenes");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", tower()},
-            "--ask");
+            "tower.off:1:1: from here on it is no JSON", bad_input);
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask",
+             path("nowhere").string()},
+            "no such file", bad_input);
+  for (const auto& [text, why] : {std::pair<std::string, std::string>{R"({"query": "see"})", "no \"eye\""},
+                                  {R"({"query": "see", "eye": [18446744073709551617, 0, 1], "two_sided": false})",
+                                   "the integer 18446744073709551617 is beyond 64 bits"}})
+    complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask",
+               file("query.json", text)},
+              why, bad_input);
   const std::string other = file("query.json", R"({"query": "order", "eye": [0, 0, 1], "two_sided": false})");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", other},
             "another question");

@@ -3,8 +3,10 @@
 #include "program.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <random>
 #include <set>
@@ -20,7 +22,33 @@ class Levels : public Program {
     return {std::istreambuf_iterator<char>(in), {}};
   }
   std::string out(const std::string& file) { return path(file).string(); }
+  /// The sum that a file of cells has of how they were made.
+  static std::string sum_of(nlohmann::json made) {
+    made.erase("sum");
+    std::uint64_t sum = 0xcbf29ce484222325u;
+    for (const char c : made.dump()) sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    std::ostringstream text;
+    text << std::hex << std::setw(16) << std::setfill('0') << sum;
+    return text.str();
+  }
 };
+
+/// A table of no cells and a hundred million faces, none of which was asked about: 98 KB of zeros.
+TEST_F(Levels, tables_that_announce_many_faces_are_merged_in_little_memory) {
+  std::string bytes = "sightline pvs 1\n";
+  const auto store = [&](std::uint32_t number) {
+    for (int k = 0; k < 4; ++k, number >>= 8) bytes += static_cast<char>(number & 255);
+  };
+  constexpr std::uint32_t runs = 49'000;
+  store(0);
+  store(0);
+  store(runs * 255 * 8);
+  for (std::uint32_t k = 0; k < runs; ++k) bytes += std::string("\0\xFF", 2);
+  const std::string part = file("part.pvs", bytes);
+  const Outcome r = run({"merge", part, part, "--out", out("t.pvs")}, {60, 300});
+  EXPECT_EQ(r.code, bad_input) << r;
+  EXPECT_NE(r.err.find("face 0 and 99959999 more are in no part"), std::string::npos) << r;
+}
 
 TEST_F(Levels, cells_are_counted_and_written) {
   const Outcome r = run({"cells", rooms, "--seal", "64,64,24", "--out", out("cells.json"), "--json", "-"});
@@ -119,6 +147,29 @@ TEST_F(Levels, a_cell_file_of_another_scene_or_a_damaged_one_is_refused) {
   for (const char* key : {"by", "candidates", "seed", "question", "grid", "volumes", "tree", "sum"})
     damaged([&](Json& c) { c["made"][key] = "leaves"; }, "is damaged");
   damaged([](Json& c) { c["made"]["tree"]["nodes"][0][1] = 0; }, "is damaged");  // below itself
+  // Whoever makes the sum again is held to the scene.
+  const auto forged = [&](const Json& made, const std::string& says) {
+    damaged(
+        [&](Json& c) {
+          c["made"].update(made);
+          c["made"]["sum"] = sum_of(c["made"]);
+        },
+        says);
+  };
+  forged({{"grid", {1, 2, 1}}}, "of its");
+  forged({{"grid", {0, 1, 1}}}, "--grid 0,1,1: three positive numbers");
+  forged({{"grid", {100000, 100000, 1}}}, "more than 1000000 boxes");
+  forged({{"by", "faces"}}, "of its");
+  forged({{"by", "leaves"}}, "--leaves is of a level that is compiled");
+  forged({{"by", "coarse"}, {"coarse", 3}}, "of its");
+  forged({{"candidates", 0}}, "candidates");
+  Json renamed = right;
+  renamed["made"].update({{"question", ", of somebody else"}, {"tree", nullptr}});
+  renamed["made"]["sum"] = sum_of(renamed["made"]);
+  std::ofstream(cells, std::ios::binary) << renamed.dump();
+  ASSERT_EQ(run({"pvs", rooms, "--cells", cells, "--out", out("renamed.pvs")}).code, done);
+  ASSERT_EQ(run({"pvs", rooms, "--grid", "2,1,1", "--out", out("made.pvs")}).code, done);
+  EXPECT_EQ(bytes_of("renamed.pvs"), bytes_of("made.pvs"));
   std::ofstream(cells, std::ios::binary) << right.dump().substr(0, 1000);
   refused(rooms, "ends too early");
   std::ofstream(cells, std::ios::binary) << right.dump();
@@ -225,14 +276,17 @@ TEST_F(Levels, a_table_with_cells_is_symmetric_and_the_same_however_it_was_divid
 
 TEST_F(Levels, what_was_done_before_an_end_is_not_done_again) {
   ASSERT_EQ(run({"pvs", rooms, "--out", out("whole.pvs")}).code, done);
-  // Blocks of another run, one of another question, one broken.
+  // Blocks of another run, one of another question, one broken, one with a bit flipped in its last row.
   std::filesystem::create_directories(path("again.pvs.parts"));
-  for (const int block : {3, 5, 9})
+  for (const int block : {3, 5, 9, 11})
     ASSERT_EQ(run({"pvs", rooms, "--shard", std::to_string(block) + "/64", "--out",
                    out("again.pvs.parts/" + std::to_string(block) + "-of-64.pvs"), "--seed", block == 5 ? "2" : "1"})
                   .code,
               done);
   std::ofstream(path("again.pvs.parts/9-of-64.pvs"), std::ios::app) << "more";
+  std::string flipped = bytes_of("again.pvs.parts/11-of-64.pvs");
+  flipped[flipped.size() - 9] = static_cast<char>(flipped[flipped.size() - 9] ^ 1);
+  file("again.pvs.parts/11-of-64.pvs", flipped);
   const Outcome again = run({"pvs", rooms, "--resume", "--out", out("again.pvs"), "--json", "-"});
   ASSERT_EQ(again.code, done) << again;
   EXPECT_EQ(again.json()["result"]["blocks_kept"], 1);

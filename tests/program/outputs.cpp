@@ -75,6 +75,43 @@ TEST_F(Outputs, never_take_the_place_of_what_is_read) {
   EXPECT_EQ(read_file(query), asked);
 }
 
+TEST_F(Outputs, never_take_the_place_of_what_was_read_by_another_files_name) {
+  // A scene whose points are in another file: what is asked for is that file, by its name or another one.
+  const std::string tree = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "index.json"}]})";
+  std::string bytes(36, '\0');
+  for (const std::size_t one : {14u, 30u}) bytes.replace(one, 2, "\x80\x3f");  // x of the second point, y of the third
+  fs::create_directory(path("all"));
+  fs::create_directory(path("all/part"));
+  const std::string scene = file("all/s.gltf", tree), buffer = file("all/index.json", bytes),
+                    hard = path("hard.json").string(), small = file("all/part/smallest.off", cube),
+                    materials = file("lib.png", "newmtl red\nKd 1 0 0\n"),
+                    painted = file("s.obj", "mtllib lib.png\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n");
+  fs::create_hard_link(buffer, hard);
+  const std::string program = "sh -c 'echo > $0' {answer} {scene} {query}";
+  for (const std::vector<std::string>& words : {
+           std::vector<std::string>{"info", scene, "--json", buffer},
+           {"info", scene, "--json", hard},
+           {"pvs", scene, "--outside", "--certificates", path("all").string()},
+           {"render", painted, "--eye", "0,0,2", "--colours", "materials", "--png", materials},
+           {"judge", "--program", program, "--query", "see", "--contract", "exact", "--cases", "1", "--scenes",
+            path("all").string(), "--keep", path("all/part").string()},
+           {"judge", "--program", program, "--query", "see", "--contract", "exact", "--cases", "1", "--scenes",
+            path("all").string(), "--json", small},
+           {"report", path("all").string(), "--questions", "see", "--cases", "1", "--json", small},
+       }) {
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find("which would be lost"), std::string::npos) << r;
+    EXPECT_EQ(read_file(buffer), bytes) << r;
+    EXPECT_EQ(read_file(small), cube) << r;
+    EXPECT_EQ(read_file(materials).substr(0, 10), "newmtl red") << r;
+  }
+}
+
 TEST_F(Outputs, never_take_the_place_of_what_is_printed) {
   const std::string scene = file("s.off", cube), printed = path("printed").string(), link = path("link").string();
   fs::create_symlink("printed", link);

@@ -221,7 +221,7 @@ TEST_F(Report_command, says_what_to_do_about_bad_input) {
       {{"report", "--json", json, "--program", "see=sh x"}, usage},
       {{"report", "--json", json, "--questions", "order", "--program", "see=" + program}, usage},
       {words({"--json", json, "--program", "see=/none/there {scene} {query} {answer}"}), usage},
-      {{"report", "--json", json, path("none.off").string()}, usage},
+      {{"report", "--json", json, path("none.off").string()}, bad_input},
       {{"report", "--json", json, "--merge", torn}, bad_input},
       {{"report", "--json", json, "--merge", other}, bad_input},
       {{"report", "--json", json, "--merge", path("none.json").string()}, bad_input},
