@@ -53,12 +53,12 @@ std::size_t bits_of(const Side& side) {
 constexpr std::size_t most_plane_bits = 1024;
 
 /// A corner of a side in the making, and the same in integers: to tell its side of a plane takes no fractions.
-struct Corner {
+struct Brush_corner {
   Exact_point at;
   std::array<Integer, 3> scaled;
   Integer scale;
 
-  explicit Corner(Exact_point p) : at(std::move(p)), scale(1) {
+  explicit Brush_corner(Exact_point p) : at(std::move(p)), scale(1) {
     for (const Rational& x : at) scale = lcm(scale, x.get_den());
     for (std::size_t k = 0; k < 3; ++k) scaled[k] = at[k].get_num() * (scale / at[k].get_den());
   }
@@ -67,19 +67,19 @@ struct Corner {
 Rational beyond(const Side& side, const Exact_point& p) {
   return side.normal[0] * p[0] + side.normal[1] * p[1] + side.normal[2] * p[2] - side.offset;
 }
-int sign_beyond(const Side& side, const Corner& p) {
+int sign_beyond(const Side& side, const Brush_corner& p) {
   return sgn(Integer(side.normal[0] * p.scaled[0] + side.normal[1] * p.scaled[1] + side.normal[2] * p.scaled[2] -
                      side.offset * p.scale));
 }
 
 /// A square in a side's plane, counterclockwise as seen from outside, whose corners have two coordinates of size
 /// `reach`.
-std::vector<Corner> square_in(const Side& side, const Integer& reach) {
+std::vector<Brush_corner> square_in(const Side& side, const Integer& reach) {
   std::size_t k = 0;  // the coordinate that the plane gives
   for (std::size_t i = 1; i < 3; ++i)
     if (abs(side.normal[i]) > abs(side.normal[k])) k = i;
   const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-  std::vector<Corner> square;
+  std::vector<Brush_corner> square;
   for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
     Exact_point p;
     p[i] = x * reach;
@@ -92,10 +92,10 @@ std::vector<Corner> square_in(const Side& side, const Integer& reach) {
 }
 
 /// The part of a convex polygon within a half space; nothing where it only touches it, unless all is in its plane.
-std::vector<Corner> within(const Side& side, std::vector<Corner> polygon, const std::vector<int>& signs) {
+std::vector<Brush_corner> within(const Side& side, std::vector<Brush_corner> polygon, const std::vector<int>& signs) {
   if (std::none_of(signs.begin(), signs.end(), [](int sign) { return sign > 0; })) return polygon;
   if (std::none_of(signs.begin(), signs.end(), [](int sign) { return sign < 0; })) return {};
-  std::vector<Corner> part;
+  std::vector<Brush_corner> part;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const std::size_t next = i + 1 == polygon.size() ? 0 : i + 1;
     if (signs[i] <= 0) part.push_back(polygon[i]);
@@ -278,18 +278,18 @@ class Map_reader {
     return "brush " + std::to_string(brush.number) + " of entity " + std::to_string(entity_);
   }
   static std::vector<Exact_point> face_of(const std::vector<Side>& sides, std::size_t i, const Integer& reach) {
-    std::vector<Corner> face = square_in(sides[i], reach);
+    std::vector<Brush_corner> face = square_in(sides[i], reach);
     std::vector<int> signs;
     for (std::size_t j = 0; j < sides.size() && !face.empty(); ++j) {
       if (j == i) continue;
       signs.clear();
-      for (const Corner& corner : face) signs.push_back(sign_beyond(sides[j], corner));
+      for (const Brush_corner& corner : face) signs.push_back(sign_beyond(sides[j], corner));
       const bool is_in_plane = std::all_of(signs.begin(), signs.end(), [](int sign) { return sign == 0; });
       if (!is_in_plane) face = within(sides[j], std::move(face), signs);
       else if (!(sides[j] == sides[i]) || j < i) return {};  // no room between two sides, or given before
     }
     std::vector<Exact_point> corners;
-    for (Corner& corner : face) corners.push_back(std::move(corner.at));
+    for (Brush_corner& corner : face) corners.push_back(std::move(corner.at));
     return corners;
   }
 
