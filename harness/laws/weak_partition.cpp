@@ -94,6 +94,7 @@ std::string flaw_of_places(const Occluders& occluders, const Weak_source& source
     const std::size_t found = partition.cell_at(at[0], at[1]);
     const bool is_sliver = partition.cells[c].area.low < 1e-6;  // doubles do not tell where it is
     if (found != c && found != Light_partition::none && !is_sliver) return "a point of a cell is found in another one";
+    if (partition.point(at[0], at[1]) != point_of(partition, at)) return "a point of the chart is elsewhere in space";
   }
   for (const auto& [x, y] : {std::array{0, 1}, {2, 1}, {1, 0}, {1, 2}})  // halves of the chart's sides
     if (partition.cell_at(Rational(x) / 2, Rational(y) / 2) != Light_partition::none)
@@ -150,12 +151,20 @@ Check partition_check() {
             Partition_options options;
             constexpr std::size_t most_rectangles = 2000;
             options.out_of_time = [&] { return ++asked > most_rectangles; };
+            double told = 0;
+            bool is_told_wrongly = false;
+            options.progress = [&](double share) {
+              is_told_wrongly |= share < told || share > 1 + 1e-9;
+              told = share;
+            };
             bool some_light = false, open = false;
             std::vector<Light_partition> pieces;
             for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
               if (scene.pieces()[piece].face != face) continue;
               Partition_counters counters;
+              told = 0;
               const Light_partition partition = partitioner.partition(piece, {posed.source}, options, counters);
+              if (is_told_wrongly) return Outcome::failed("a partition's progress goes back, or beyond all of it");
               constexpr std::size_t most_cells = 30;
               for (const auto& cell : partition.cells) {
                 if (random.chance(most_cells, std::max(most_cells, partition.cells.size())) &&
