@@ -8,6 +8,7 @@
 #include <sightline/algorithms/weak_visibility/along/along_scene.h>
 #include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/algorithms/weak_visibility/along/piece_cause.h>
+#include <sightline/algorithms/weak_visibility/along/piece_run.h>
 #include <sightline/algorithms/weak_visibility/along/piece_view.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/harness/generate/polygons.h>
@@ -125,15 +126,32 @@ std::array<std::uint32_t, 3> any_lines(const Piece_view& view, Random& random) {
   return lines;
 }
 
+/// What is wrong with a run at a moment at which something changes: it is not sure, or says what is so at just that
+/// moment.
+std::string flaw_of_run(const Piece_view& view, const Rational& t) {
+  const Quadratic_root now = moment(t);
+  if (view.side_of_eye(now) <= 0) return "";
+  const Parameter_range at_once{now, now}, around{moment(Rational(t / 2)), moment(Rational((1 + t) / 2))};
+  Piece_run run(view);
+  const Piece_run::Answer within = run.run(now, around, view.left_in(around, view.all_blockers())),
+                          just_then = run.run(now, at_once, view.left_in(at_once, view.all_blockers()));
+  if (!just_then.sure) return "a run of one moment is not sure";
+  return within.sure && within.seen != just_then.seen ? "a run is sure of what is not so" : "";
+}
+
 /// What is wrong with the causes that are found where three lines of a piece's view look concurrent, as if what is seen
 /// rested on them: edges are named of such as one ray meets, also where these lines go on beyond their own.
 std::string flaw_of_causes(const Scene& scene, const Occluders& occluders, const Exact_point& from,
-                           const Exact_point& to, Random& random) {
+                           const Exact_point& to, const std::vector<Rational>& moments, Random& random) {
   constexpr int tries = 12;
   const Along_scene along(occluders, from, to, [] {});
   const auto piece = static_cast<std::uint32_t>(random.below(scene.pieces().size()));
   if (along.polygons()[piece].corners.empty()) return "";  // the path is in its plane
   const Piece_view view(along, piece, random.chance(1, 4) ? -1 : 1);
+  for (const Rational& t : moments)
+    if (t > 0 && t < 1)
+      if (const std::string flaw = flaw_of_run(view, t); !flaw.empty())
+        return "of piece " + std::to_string(piece) + ' ' + at(t) + ": " + flaw;
   for (int k = 0; k < tries; ++k) {
     const std::array<std::uint32_t, 3> lines = any_lines(view, random);
     const Quadratic f = determinant(view.line(lines[0]), view.line(lines[1]), view.line(lines[2]));
@@ -295,7 +313,7 @@ Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
         return Outcome::failed("near t = " + std::to_string(event.t.near()) + ' ' + path + " of " +
                                face_name(change.face) + ": " + flaw);
     }
-  if (const std::string flaw = flaw_of_causes(scene, occluders, from, to, random); !flaw.empty())
+  if (const std::string flaw = flaw_of_causes(scene, occluders, from, to, moments, random); !flaw.empty())
     return Outcome::failed(path + " a cause " + flaw);
   // 3. The way back.
   const Visible_along back = visible_along(occluders, to, from, options);

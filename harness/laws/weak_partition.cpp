@@ -4,6 +4,7 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/weak_outline.h>
 #include <sightline/kernel/vectors.h>
@@ -130,6 +131,17 @@ std::string flaw_of_shares(const Scene& scene, const std::vector<Light_partition
   return is_whole(shares_of_face(scene, pieces)) ? "" : "its shares are not all of it";
 }
 
+/// An L about a point of the scene, of several pieces. Returns whether it has an area.
+bool add_bent_face(Polygon_soup& soup, Random& random) {
+  if (soup.point_count() == 0) return false;
+  const Exact_point origin = soup.point(static_cast<Point_id>(random.below(soup.point_count()))),
+                    u = generate::lattice(random, 2), v = generate::lattice(random, 2);
+  if (is_zero(cross(u, v))) return false;
+  soup.add_face(
+      generate::added(soup, generate::in_plane(origin, u, v, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})));
+  return true;
+}
+
 }  // namespace
 
 Check partition_check() {
@@ -138,12 +150,15 @@ Check partition_check() {
           "their light says",
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_pieces = 10;
-            const Scene scene(posed.soup);
+            Polygon_soup soup = posed.soup;
+            const bool is_bent = random.chance(1, 4) && add_bent_face(soup, random);
+            const Scene scene(soup);
             constexpr int most_bits = 100;  // an arrangement's roots have some fifty times as many
             if (scene.pieces().empty() || scene.pieces().size() > most_pieces || scene.bits() > most_bits)
               return Outcome::not_applicable();
-            const Face_id face = scene.pieces()[random.below(scene.pieces().size())].face;
-            if (answer.labels[face] == Answer::none) return Outcome::not_applicable();
+            const Face_id face =
+                is_bent ? scene.pieces().back().face : scene.pieces()[random.below(scene.pieces().size())].face;
+            if (!is_bent && answer.labels[face] == Answer::none) return Outcome::not_applicable();
             const Occluders occluders(scene);
             const Weak_source source = weak_source(occluders, posed.source);
             const Light_partitioner partitioner(scene);
@@ -180,6 +195,7 @@ Check partition_check() {
             }
             const std::string flaw = flaw_of_shares(scene, pieces);
             if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
+            if (is_bent) return Outcome{};  // of which no answer is known
             if (some_light ? answer.labels[face] == 1 : !open && answer.labels[face] == 0) return Outcome{};
             if (!some_light && open) return Outcome::undecided();
             return Outcome::failed(face_name(face) + (some_light ? " has light in its partition, but is hidden"
