@@ -126,8 +126,8 @@ std::array<std::uint32_t, 3> any_lines(const Piece_view& view, Random& random) {
   return lines;
 }
 
-/// What is wrong with a run at a moment at which something changes: it is not sure, or says what is so at just that
-/// moment.
+/// What is wrong with a run at a moment at which something changes: it is not sure, or what it says is so at just that
+/// moment, and at others of its range.
 std::string flaw_of_run(const Piece_view& view, const Rational& t) {
   const Quadratic_root now = moment(t);
   if (view.side_of_eye(now) <= 0) return "";
@@ -136,7 +136,16 @@ std::string flaw_of_run(const Piece_view& view, const Rational& t) {
   const Piece_run::Answer within = run.run(now, around, view.left_in(around, view.all_blockers())),
                           just_then = run.run(now, at_once, view.left_in(at_once, view.all_blockers()));
   if (!just_then.sure) return "a run of one moment is not sure";
-  return within.sure && within.seen != just_then.seen ? "a run is sure of what is not so" : "";
+  if (!within.sure) return "";
+  if (within.seen != just_then.seen) return "a run is sure of what is not so";
+  for (unsigned long attempt = 0; attempt < 4; ++attempt) {
+    const Quadratic_root other = moment(inner_rational(within.range, attempt));
+    const Parameter_range there{other, other};
+    if (view.side_of_eye(other) > 0 &&
+        run.run(other, there, view.left_in(there, view.all_blockers())).seen != within.seen)
+      return "a run is sure of a range in which it is not so";
+  }
+  return "";
 }
 
 /// What is wrong with the causes that are found where three lines of a piece's view look concurrent, as if what is seen
