@@ -1,6 +1,7 @@
 #pragma once
 // The bit budget of a scene, and the narrowest exact arithmetic that provably fits it.
 
+#include <cstddef>
 #include <string_view>
 
 namespace sightline {
@@ -8,13 +9,8 @@ namespace sightline {
 enum class Arithmetic { bits128, bits256, bits512, gmp };
 
 constexpr std::string_view name(Arithmetic a) {
-  switch (a) {
-    case Arithmetic::bits128: return "128";
-    case Arithmetic::bits256: return "256";
-    case Arithmetic::bits512: return "512";
-    case Arithmetic::gmp: break;
-  }
-  return "gmp";
+  constexpr std::string_view names[] = {"128", "256", "512", "gmp"};
+  return names[static_cast<std::size_t>(a)];
 }
 
 /// Widths of what predicates are made of, in bits of magnitude.

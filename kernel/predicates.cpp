@@ -82,8 +82,7 @@ Vertex Predicates::meet(std::uint32_t p, std::uint32_t q, std::uint32_t r, std::
   v.z = z / w;
   const double reach = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
   if (integers) {
-    const bool grid_point = std::rint(v.x) * w == x && std::rint(v.y) * w == y && std::rint(v.z) * w == z &&
-                            std::rint(v.x) == v.x && std::rint(v.y) == v.y && std::rint(v.z) == v.z;
+    const bool grid_point = std::rint(v.x) * w == x && std::rint(v.y) * w == y && std::rint(v.z) * w == z;
     v.error = grid_point ? 0.0 : 0x1p-52 * reach;
   } else {
     // |X/W - x/w| <= (error_x + |x/w| error_w) / (|w| - error_w), and the division's own rounding; the factor is for

@@ -361,15 +361,14 @@ class Newell {
   bool next() {
     if (options_.progress) options_.progress(painted_, polygons_.size());
     if (!moved_.empty()) return true;
-    const auto is_there = [&](State state) { return state == State::waiting || state == State::marked; };
-    while (!farthest_.empty() && !is_there(fates_[~farthest_.top().second].state)) farthest_.pop();
+    while (!farthest_.empty() && fates_[~farthest_.top().second].state != State::waiting) farthest_.pop();
     if (farthest_.empty()) return false;
     move_to_end(~farthest_.top().second);
     return true;
   }
 
   void move_to_end(std::uint32_t polygon) {
-    while (first_ < left_.size() && left_[first_] == 0) ++first_;
+    while (left_[first_] == 0) ++first_;  // of its own face there is one left
     fates_[polygon].state = State::marked;
     moved_.push_back({polygon, first_});
   }
@@ -456,8 +455,9 @@ class Newell {
     // 1. In depth P begins where Q has ended.
     if (b.farthest < a.nearest) return passed(order_.counters.by_depth);
     // 2. One is beside the other, or above.
-    return (a.right < b.left || b.right < a.left || a.high < b.low || b.high < a.low) &&
-           passed(order_.counters.by_extents);
+    const bool are_apart = a.right < b.left || b.right < a.left || a.high < b.low || b.high < a.low;
+    order_.counters.by_extents += are_apart;
+    return are_apart;
   }
 
   /// Whether P may be painted before Q, as it is nowhere nearer where both are seen.

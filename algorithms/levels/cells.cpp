@@ -386,12 +386,9 @@ class Wall_builder {
   }
   /// A vertex that has had the same name before has the same place; one of another name may have.
   std::uint32_t id_of(const Vertex& v) {
-    Name name{v.point, Vertex::no_plane, Vertex::no_plane};
-    if (!v.is_input()) {
-      std::copy(v.plane, v.plane + 3, name.begin());
-      std::sort(name.begin(), name.end());
-    }
-    const auto [known, is_new_name] = ids_by_name_[v.is_input() ? 0 : 1].try_emplace(name, 0);
+    Name name{v.plane[0], v.plane[1], v.plane[2]};
+    std::sort(name.begin(), name.end());
+    const auto [known, is_new_name] = ids_by_name_.try_emplace(name, 0);
     if (!is_new_name) return known->second;
     const auto [place, is_new] = ids_.try_emplace(traits_.position(v), static_cast<std::uint32_t>(points.size()));
     if (is_new) points.push_back(place->first);
@@ -405,13 +402,13 @@ class Wall_builder {
   Wall_cutter cutter_;
   Cell_id cells_ = 0;
   std::vector<int> times_ = times_given(traits_.scene());
-  using Name = std::array<std::uint32_t, 3>;  ///< an input point, or planes that meet
+  using Name = std::array<std::uint32_t, 3>;  ///< planes that meet
   struct Name_hash {
     std::size_t operator()(const Name& name) const {
       return ((name[0] * 0x9e3779b97f4a7c15u + name[1]) * 0x9e3779b97f4a7c15u + name[2]) * 0x9e3779b97f4a7c15u >> 7;
     }
   };
-  std::array<std::unordered_map<Name, std::uint32_t, Name_hash>, 2> ids_by_name_;
+  std::unordered_map<Name, std::uint32_t, Name_hash> ids_by_name_;
   std::map<Exact_point, std::uint32_t> ids_;
 };
 
@@ -448,6 +445,8 @@ void find_windings(std::vector<Level_cell>& cells, const std::vector<Cell_wall>&
   for (Level_cell& cell : cells) cell.is_solid = cell.winding > least;
 }
 
+/// What hangs together through open walls. On both sides of one the winding number is the same: it is of a whole cell,
+/// and does not change at a point of the wall that is on no face.
 std::size_t find_regions(std::vector<Level_cell>& cells, const std::vector<Cell_wall>& walls) {
   constexpr std::uint32_t none = ~std::uint32_t{0};
   for (Level_cell& cell : cells) cell.region = none;
@@ -460,8 +459,7 @@ std::size_t find_regions(std::vector<Level_cell>& cells, const std::vector<Cell_
       const Cell_id cell = stack.back();
       stack.pop_back();
       each_neighbour(cells, walls, cell, [&](Cell_id other, std::uint32_t w) {
-        if (walls[w].open.empty() || cells[other].region != none || cells[other].is_solid != cells[cell].is_solid)
-          return;
+        if (walls[w].open.empty() || cells[other].region != none) return;
         cells[other].region = regions;
         stack.push_back(other);
       });
@@ -514,7 +512,7 @@ Level_cells::Level_cells(const Polygon_soup& soup, const Cell_options& options)
   }
   counters_.walls = walls_.size();
   for (const Cell_wall& wall : walls_) {
-    counters_.portals += !wall.open.empty() && !cells_[wall.front].is_solid && !cells_[wall.behind].is_solid;
+    counters_.portals += !wall.open.empty() && !cells_[wall.front].is_solid;
     counters_.covered += wall.behind != no_cell && wall.open.empty();
   }
   counters_.contacts = builder.cutter().contacts();
@@ -571,7 +569,7 @@ std::vector<Cell_id> Level_cells::way_out(const Exact_point& point) const {
       return way;
     }
     each_neighbour(cells_, walls_, cell, [&](Cell_id other, std::uint32_t w) {
-      if (walls_[w].open.empty() || cells_[other].is_solid || from[other] != no_cell) return;
+      if (walls_[w].open.empty() || from[other] != no_cell) return;
       from[other] = cell;
       waiting.push(other);
     });

@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/verify/certificate_writer.h>
 
+#include <sightline/algorithms/verify/json_text.h>
 #include <sightline/kernel/number.h>
 
 #include <gmp.h>
@@ -13,7 +14,6 @@
 #include <span>
 #include <sstream>
 #include <string>
-#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -61,19 +61,6 @@ template <class Whole>
 requires std::is_integral_v<Whole>
 void write_numbers(std::ostream& out, std::span<const Whole> numbers) {
   write_list(out, numbers, [&](Whole number) { out << number; });
-}
-
-/// A text of JSON, with control characters escaped.
-void write_text(std::ostream& out, std::string_view text) {
-  static constexpr char digits[] = "0123456789abcdef";
-  out << '"';
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') out << '\\' << c;
-    else if (byte < 32) out << "\\u00" << digits[byte >> 4] << digits[byte & 15];
-    else out << c;
-  }
-  out << '"';
 }
 
 // ---- The table of points
@@ -138,7 +125,7 @@ void write(std::ostream& out, const Covering& covering, const Point_table& table
   out << R"(,"set_aside":)";
   write_list(out, covering.set_aside, [&](const Covering::Set_aside& entry) {
     out << R"({"face":)" << entry.face << R"(,"why":)";
-    write_text(out, entry.why);
+    certificate_check::write_json_text(out, entry.why);
     out << '}';
   });
 }

@@ -1,5 +1,6 @@
 #include <sightline/algorithms/verify/solids_json.h>
 
+#include <sightline/algorithms/verify/json_text.h>
 #include <sightline/algorithms/verify/keys_once.h>
 #include <sightline/algorithms/verify/written_out.h>
 #include <sightline/kernel/quoted.h>
@@ -57,8 +58,11 @@ struct Point_hash {
 void write_solid_certificate(std::ostream& out, const Solid_certificate& certificate) {
   std::unordered_map<Exact_point, std::size_t, Point_hash> numbers;
   std::vector<std::size_t> of_corners;  // of all fragments, then of all pieces
-  out << "{\"format\": \"" << solids_format << "\",\n\"operation\": \"" << certificate.operation << "\", \"inside\": \""
-      << certificate.inside << "\", \"operands\": " << certificate.operands << ",\n\"points\": [";
+  out << "{\"format\": \"" << solids_format << "\",\n\"operation\": ";
+  certificate_check::write_json_text(out, certificate.operation);
+  out << ", \"inside\": ";
+  certificate_check::write_json_text(out, certificate.inside);
+  out << ", \"operands\": " << certificate.operands << ",\n\"points\": [";
   const auto number = [&](const Exact_point& p) {
     const auto [at, fresh] = numbers.try_emplace(p, numbers.size());
     if (fresh) out << (at->second == 0 ? "\n[\"" : ",\n[\"") << p[0] << "\",\"" << p[1] << "\",\"" << p[2] << "\"]";
@@ -103,8 +107,9 @@ void write_solid_certificate(std::ostream& out, const Solid_certificate& certifi
   out << "],\n\"set_aside\": [";
   first = true;
   for (const auto& entry : certificate.set_aside) {
-    out << (first ? "\n" : ",\n") << "{\"operand\": " << entry.operand << ", \"face\": " << entry.face
-        << ", \"why\": \"" << entry.why << "\"}";
+    out << (first ? "\n" : ",\n") << "{\"operand\": " << entry.operand << ", \"face\": " << entry.face << ", \"why\": ";
+    certificate_check::write_json_text(out, entry.why);
+    out << '}';
     first = false;
   }
   out << "]}\n";

@@ -5,7 +5,11 @@
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/verify/along.h>
 #include <sightline/algorithms/weak_visibility/along/along.h>
+#include <sightline/algorithms/weak_visibility/along/along_scene.h>
 #include <sightline/algorithms/weak_visibility/along/certificate.h>
+#include <sightline/algorithms/weak_visibility/along/piece_cause.h>
+#include <sightline/algorithms/weak_visibility/along/piece_run.h>
+#include <sightline/algorithms/weak_visibility/along/piece_view.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/along_edges.h>
@@ -13,7 +17,10 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <iterator>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,6 +109,76 @@ Faces after_events(const Visible_along& along, const Quadratic_root& t) {
   }
   std::sort(seen.begin(), seen.end());
   return seen;
+}
+
+// ---- Causes
+
+/// Three lines of a view: any, or such that one may hide that another one's edge is missed, as they share a point.
+std::array<std::uint32_t, 3> any_lines(const Piece_view& view, Random& random) {
+  const std::uint32_t count = view.line_count();
+  std::array<std::uint32_t, 3> lines{};
+  for (std::uint32_t& line : lines) line = static_cast<std::uint32_t>(random.below(count));
+  if (random.chance(1, 2)) return lines;
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t k = 0; k < count; ++k)
+    if (k != lines[0] && sgn(side(view.line(lines[0]).line, view.line(k).line)) == 0) near.push_back(k);
+  if (!near.empty()) lines[1] = near[random.below(near.size())];
+  return lines;
+}
+
+/// What is wrong with a run at a moment at which something changes: it is not sure, or what it says is so at just that
+/// moment, and at others of its range.
+std::string flaw_of_run(const Piece_view& view, const Rational& t) {
+  const Quadratic_root now = moment(t);
+  if (view.side_of_eye(now) <= 0) return "";
+  const Parameter_range at_once{now, now}, around{moment(Rational(t / 2)), moment(Rational((1 + t) / 2))};
+  Piece_run run(view);
+  const Piece_run::Answer within = run.run(now, around, view.left_in(around, view.all_blockers())),
+                          just_then = run.run(now, at_once, view.left_in(at_once, view.all_blockers()));
+  if (!just_then.sure) return "a run of one moment is not sure";
+  if (!within.sure) return "";
+  if (within.seen != just_then.seen) return "a run is sure of what is not so";
+  for (unsigned long attempt = 0; attempt < 4; ++attempt) {
+    const Quadratic_root other = moment(inner_rational(within.range, attempt));
+    const Parameter_range there{other, other};
+    if (view.side_of_eye(other) > 0 &&
+        run.run(other, there, view.left_in(there, view.all_blockers())).seen != within.seen)
+      return "a run is sure of a range in which it is not so";
+  }
+  return "";
+}
+
+/// What is wrong with the causes that are found where three lines of a piece's view look concurrent, as if what is seen
+/// rested on them: edges are named of such as one ray meets, also where these lines go on beyond their own.
+std::string flaw_of_causes(const Scene& scene, const Occluders& occluders, const Exact_point& from,
+                           const Exact_point& to, const std::vector<Rational>& moments, Random& random) {
+  constexpr int tries = 12;
+  const Along_scene along(occluders, from, to, [] {});
+  const auto piece = static_cast<std::uint32_t>(random.below(scene.pieces().size()));
+  if (along.polygons()[piece].corners.empty()) return "";  // the path is in its plane
+  const Piece_view view(along, piece, random.chance(1, 4) ? -1 : 1);
+  for (const Rational& t : moments)
+    if (t > 0 && t < 1)
+      if (const std::string flaw = flaw_of_run(view, t); !flaw.empty())
+        return "of piece " + std::to_string(piece) + ' ' + at(t) + ": " + flaw;
+  for (int k = 0; k < tries; ++k) {
+    const std::array<std::uint32_t, 3> lines = any_lines(view, random);
+    const Quadratic f = determinant(view.line(lines[0]), view.line(lines[1]), view.line(lines[2]));
+    std::vector<Quadratic_root> roots;
+    append_roots(f, {Quadratic_root(0), Quadratic_root(1)}, roots);
+    for (const Quadratic_root& t : roots) {
+      if (view.side_of_eye(t) <= 0) continue;
+      const Along_cause cause = cause_of(view, t, std::span(&lines, 1));
+      if (cause.edges.empty()) continue;  // no ray meets three
+      const std::string flaw = flaw_of_change(
+          scene, from, to, t, {scene.pieces()[piece].face, false, false, false, cause.kind, cause.edges});
+      if (!flaw.empty())
+        return "of piece " + std::to_string(piece) + " by lines " + std::to_string(lines[0]) + ' ' +
+               std::to_string(lines[1]) + ' ' + std::to_string(lines[2]) + " near t = " + std::to_string(t.near()) +
+               ", " + name(cause.kind) + ": " + flaw;
+    }
+  }
+  return "";
 }
 
 // ---- The certificate
@@ -245,6 +322,8 @@ Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
         return Outcome::failed("near t = " + std::to_string(event.t.near()) + ' ' + path + " of " +
                                face_name(change.face) + ": " + flaw);
     }
+  if (const std::string flaw = flaw_of_causes(scene, occluders, from, to, moments, random); !flaw.empty())
+    return Outcome::failed(path + " a cause " + flaw);
   // 3. The way back.
   const Visible_along back = visible_along(occluders, to, from, options);
   bool same = back.events.size() == found.events.size() && back.visible == found.visible;

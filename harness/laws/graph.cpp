@@ -10,6 +10,7 @@
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/empty_scenes.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
@@ -21,8 +22,15 @@
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
+#include <boost/range/iterator_range.hpp>
+
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sightline::harness {
 
@@ -67,6 +75,22 @@ Outcome by_explicit(const Posed_scene& posed, const Answer& answer) {
       if (graph.has_arc(i, j) && found.h(i) > found.h(j))
         return Outcome::failed("explicit: an arc from piece " + std::to_string(i) + " to piece " + std::to_string(j) +
                                ", of higher priority");
+  // Between components, each arc once.
+  std::set<std::pair<std::uint32_t, std::uint32_t>> expected, between;
+  for (std::uint32_t i = 0; i < faces.size(); ++i)
+    for (std::uint32_t j = 0; j < faces.size(); ++j)
+      if (graph.has_arc(i, j) && found.h(i) != found.h(j)) expected.emplace(found.h(i), found.h(j));
+  const Arc_graph whole = condensation(graph.boost_graph(), found);
+  for (const auto& arc : boost::make_iterator_range(boost::edges(whole)))
+    between.emplace(boost::source(arc, whole), boost::target(arc, whole));
+  if (between != expected || boost::num_edges(whole) != expected.size())
+    return Outcome::failed("explicit: the arcs between components are not those between their members");
+  std::vector<std::size_t> sizes(found.size());
+  for (std::uint32_t i = 0; i < faces.size(); ++i) ++sizes[found.h(i)];
+  const std::size_t largest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
+  const auto cyclic = std::count_if(sizes.begin(), sizes.end(), [](std::size_t size) { return size > 1; });
+  if (found.largest() != largest || found.cyclic() != static_cast<std::size_t>(cyclic))
+    return Outcome::failed("explicit: components are counted wrongly");
   return compared(answer, answer_of(posed.soup, scene, found), "implicit", "explicit");
 }
 
@@ -88,6 +112,7 @@ Subject graph() {
   for (const Check& check : {region_check(), rays_check(), pixels_check(), splits_check()})
     subject.checks.push_back(check);
   subject.checks.push_back(manners_check(questions_of_graph()));
+  subject.checks.push_back(empty_scenes_check(subject.verified));
   return subject;
 }
 

@@ -60,12 +60,41 @@ bool has_scene_in_front(const Level_cells& level, const Points& polygon) {
   });
 }
 
+/// Walls that are none, or bound nothing.
+void tell_nonsense(std::vector<Points>& walls, Random& random) {
+  Points& wall = walls[random.below(walls.size())];
+  switch (random.below(6)) {
+    case 0: walls.clear(); break;
+    case 1: wall.clear(); break;
+    case 2: {  // not in lowest terms
+      Rational& x = wall[random.below(wall.size())][random.below(3)];
+      mpz_mul_ui(mpq_numref(x.get_mpq_t()), mpq_numref(x.get_mpq_t()), 2);
+      mpz_mul_ui(mpq_denref(x.get_mpq_t()), mpq_denref(x.get_mpq_t()), 2);
+      break;
+    }
+    case 3: wall.assign(3, wall[0]); break;
+    case 4: {  // it crosses itself
+      Points star;
+      for (const std::size_t k : {0, 2, 1}) star.push_back(wall[k % wall.size()]);
+      star.insert(star.end(), wall.begin(), wall.end());
+      wall = star;
+      break;
+    }
+    default: {  // a wall and its back
+      const Points front = wall;
+      walls = {front, Points(front.rbegin(), front.rend())};
+    }
+  }
+}
+
 /// Something else than the truth about a cell; nothing where the choice at hand can't be wrong here.
 std::optional<Said> forged(const Level_cells& level, Cell_id cell, const Said& truth, Random& random) {
   Said said = truth;
   std::vector<Points>&walls = said.cell.walls, &sources = said.certificate.sources;
   const auto any_of = [&](auto& list) { return list.begin() + static_cast<std::ptrdiff_t>(random.below(list.size())); };
-  switch (random.below(10)) {
+  switch (random.below(12)) {
+    case 10:
+    case 11: tell_nonsense(walls, random); return said;
     case 0: walls.erase(any_of(walls)); return said;
     case 1: {
       Points& wall = *any_of(walls);
@@ -173,10 +202,13 @@ Outcome of_a_cell(const Posed_scene& posed, const Level_cells& level, Cell_id ce
   Said other = truth;
   std::vector<Order_fragment>& fragments = other.certificate.fragments;
   if (fragments.empty()) return {};
-  const std::size_t place = random.below(fragments.size()), way = random.below(3);
+  const std::size_t place = random.below(fragments.size()), way = random.below(6);
   if (way == 0) fragments.erase(fragments.begin() + static_cast<std::ptrdiff_t>(place));
   if (way == 1) fragments[place].vertices[0][random.below(3)] += 1;
   if (way == 2) std::swap(fragments[place], fragments[random.below(fragments.size())]);
+  if (way == 3) other.certificate.set_aside.push_back({fragments[place].face, "zero area"});
+  if (way == 4 && !other.certificate.set_aside.empty()) other.certificate.set_aside[0].why += '.';
+  if (way == 5) other.certificate.pieces.push_back({fragments[place].face, 0, fragments[place].vertices});
   for (const Said& said : {other, truth, other}) {
     const Verdict mine = checker.check(said.cell, said.certificate),
                   anew = verify_level_cell(posed.soup, said.cell, said.certificate, one_thread);
@@ -194,7 +226,10 @@ Outcome of_all(const Posed_scene& posed, const Level_cells& level, Random& rando
     truth.push_back({c, stated_cell(level, c).walls, is_asked, {}});
     if (is_asked) truth.back().sources = portals_of(level, c);
   }
-  const Verdict verdict = verify_level_fill(posed.soup, truth);
+  bool is_beyond = false;
+  const Verdict verdict = verify_level_fill(
+      posed.soup, truth, {1, [&](std::size_t done, std::size_t all) { is_beyond = is_beyond || done > all; }});
+  if (is_beyond) return Outcome::failed("the checker of cells tells of more than all");
   if (!verdict.accepted) return Outcome::failed("cells that fill the box are refused: " + verdict.why);
 
   for (std::size_t k = 0; k < 4; ++k) {
@@ -202,7 +237,9 @@ Outcome of_all(const Posed_scene& posed, const Level_cells& level, Random& rando
     Polygon_soup soup = posed.soup;
     const std::size_t place = random.below(said.size());
     Cell_of_level& cell = said[place];
-    const std::size_t way = random.below(7);
+    const std::size_t way = random.below(8);
+    if (way == 7 && random.chance(1, 3)) cell.open_walls = {cell.walls.size() + random.below(2)};
+    else if (way == 7) tell_nonsense(cell.walls, random);
     if (way == 0) {  // a hole, unless what is left is a smaller box
       said.erase(said.begin() + static_cast<std::ptrdiff_t>(place));
       if (said.empty() || box_about_cells(said) != box_about_cells(truth)) continue;

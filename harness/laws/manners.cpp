@@ -1,5 +1,6 @@
 #include <sightline/harness/laws/manners.h>
 
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/crowd.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -35,7 +36,7 @@ class Listener {
 std::string flaw_of_manners(const Question& question, const Posed_scene& posed, Random& random) {
   const std::uint64_t choice = random.below(1u << 20);
   const std::string alone = question.ask(posed, {}, choice);
-  const auto threads = [&] { return static_cast<int>(1 + random.below(4)); };
+  const auto threads = [&] { return static_cast<int>(random.below(5)); };  // 0: as many as there are
   // 1. To somebody who listens.
   Listener listener(~std::size_t{0});
   const int so_many = threads();
@@ -60,11 +61,13 @@ std::string flaw_of_manners(const Question& question, const Posed_scene& posed, 
 Check manners_check(std::vector<Question> questions) {
   return {"manners", "the same by several threads, whatever is told of progress, and nothing once that gives up",
           [questions = std::move(questions)](const Posed_scene& posed, const Answer&, Random& random) {
-            constexpr std::size_t most_faces = 40, of_a_crowd = 1200;
+            constexpr std::size_t most_faces = 40, of_a_crowd = 1200, of_a_pile = 48;
             if (posed.soup.face_count() > most_faces || !random.chance(1, 8)) return Outcome::not_applicable();
             const Question& question = questions[random.below(questions.size())];
             Posed_scene scene = posed;
-            if (question.is_for_crowds && random.chance(1, 4)) scene.soup = crowd(posed.soup, of_a_crowd, 1);
+            if (question.is_for_crowds && random.chance(1, 4))  // beside each other, or piled up
+              scene.soup = random.chance(2, 3) ? crowd(posed.soup, of_a_crowd, 1)
+                                               : crowd(posed.soup, of_a_pile, generate::ratio(1, 50));
             const std::string flaw = flaw_of_manners(question, scene, random);
             return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
           }};

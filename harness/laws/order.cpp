@@ -14,6 +14,7 @@
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/empty_scenes.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
@@ -238,6 +239,7 @@ Subject order() {
   subject.checks.push_back(
       {"rounding", "trees in floats and doubles have all fragments, each once", in_rounding_kernels});
   subject.checks.push_back(manners_check(questions_of_order()));
+  subject.checks.push_back(empty_scenes_check(subject.verified));
   return subject;
 }
 

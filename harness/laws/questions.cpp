@@ -25,7 +25,9 @@
 #include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
+#include <sightline/algorithms/verify/order.h>
 #include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/algorithms/weak_visibility/along/along.h>
 #include <sightline/algorithms/weak_visibility/along/certificate.h>
@@ -38,11 +40,13 @@
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/threads.h>
 #include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/sightline.h>
 
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace sightline::harness {
@@ -167,6 +171,20 @@ std::string priority_tree(const Posed_scene& posed, const Manner& manner, std::u
   for (const auto& node : tree.nodes)
     out << static_cast<int>(node.kind) << ' ' << node.first << ' ' << node.count << '\n';
   put_all(out, tree.slots);
+  return out.str();
+}
+
+/// Of the faces as a tree draws them, or of two of them exchanged, with its planes or without.
+std::string order_verdict(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
+  std::istringstream told(sightline::order(Model(posed.soup), posed.eye, {1, {}}).certificate());
+  Order_certificate claim = std::get<Order_certificate>(read_certificate(told));
+  if (choice % 2 != 0) claim.cuts = {};
+  if (choice / 2 % 2 != 0 && claim.fragments.size() > 1) {
+    const std::size_t at = choice / 4 % claim.fragments.size(), other = choice / 64 % claim.fragments.size();
+    std::swap(claim.fragments[at], claim.fragments[other]);
+  }
+  std::ostringstream out;
+  put_verdict(out, verify_order(posed.soup, claim, verifying(manner)));
   return out.str();
 }
 
@@ -424,7 +442,9 @@ std::vector<Question> questions_of_see() {
           {"what is seen on a way", way}};
 }
 std::vector<Question> questions_of_order() {
-  return {{"the tree", tree, true, true}, {"the priority tree", priority_tree, false, true}};
+  return {{"the tree", tree, true, true},
+          {"the priority tree", priority_tree, false, true},
+          {"the verdict on the order", order_verdict, true}};
 }
 std::vector<Question> questions_of_graph() { return {{"components", components, true}, {"arcs", arcs, true}}; }
 std::vector<Question> questions_of_weak() {

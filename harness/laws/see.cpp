@@ -15,11 +15,13 @@
 #include <sightline/harness/generate/weak_neighbours.h>
 #include <sightline/harness/laws/along.h>
 #include <sightline/harness/laws/budget.h>
+#include <sightline/harness/laws/empty_scenes.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/questions.h>
+#include <sightline/harness/laws/round_faces.h>
 #include <sightline/harness/laws/see_lines.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -98,9 +100,11 @@ Subject see() {
                     lines_check(),
                     field_check()};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
-  for (Check check : {see_budget_check(), moving_eye_check()})  // last: others keep their random choices
+  for (Check check : {see_budget_check(), moving_eye_check(),
+                      round_faces_check(subject.verified, 120, 24)})  // last: others keep their random choices
     subject.checks.push_back(std::move(check));
   subject.checks.push_back(manners_check(questions_of_see()));
+  subject.checks.push_back(empty_scenes_check(subject.verified));
   return subject;
 }
 

@@ -11,6 +11,7 @@
 #include <sightline/harness/laws/judge_laws.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/open_solids.h>
 #include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/solid_oracle.h>
 #include <sightline/harness/laws/solid_proof.h>
@@ -350,6 +351,7 @@ Subject boolean() {
       "results", "the result is accepted however its faces are told, and no other one is",
       [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_told_result(solids, random); }));
   subject.checks.push_back(manners_check(questions_of_boolean()));
+  subject.checks.push_back(open_solids_check());
   return subject;
 }
 

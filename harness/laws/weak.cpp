@@ -13,13 +13,16 @@
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/budget.h>
+#include <sightline/harness/laws/empty_scenes.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/naive_weak.h>
 #include <sightline/harness/laws/questions.h>
+#include <sightline/harness/laws/round_faces.h>
 #include <sightline/harness/laws/weak_answers.h>
+#include <sightline/harness/laws/weak_crowd.h>
 #include <sightline/harness/laws/weak_hurried.h>
 #include <sightline/harness/laws/weak_open.h>
 #include <sightline/harness/laws/weak_options.h>
@@ -155,11 +158,12 @@ Subject weak() {
       {"shafts", "the same faces by events in parts of shafts",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer, 0); }});
   subject.checks.push_back(weak_budget_check());  // behind the others, which keep their random choices; so are these
-  for (Check check :
-       {conservative_check(), settle_check(), along_check(), volume_check(), partition_check(), outline_check(),
-        naive_weak_check(), two_sided_check(), rest_check(), open_check(), hurried_check()})
+  for (Check check : {conservative_check(), settle_check(), along_check(), volume_check(), partition_check(),
+                      outline_check(), naive_weak_check(), two_sided_check(), rest_check(), open_check(),
+                      hurried_check(), crowd_check(), round_faces_check(subject.verified, 44, 40)})
     subject.checks.push_back(std::move(check));
   subject.checks.push_back(manners_check(questions_of_weak()));
+  subject.checks.push_back(empty_scenes_check(subject.verified));
   return subject;
 }
 

@@ -67,7 +67,10 @@ Outcome run(const Posed_scene& posed, const Answer& answer, Random& random) {
   }
 
   // 2. Events of what is open, or of its parts, where few enough edges are near.
-  const std::size_t most_edges = random.below(40), most_asks = random.chance(1, 3) ? random.below(300) : 20000;
+  std::size_t most_edges = random.below(40);
+  const std::size_t most_asks = random.chance(1, 3) ? random.below(300) : 20000;
+  if (random.chance(1, 2))  // just fewer than are near all of a pair, so that they may be enough for its cells
+    most_edges = edges_between(occluders, sources[0], found.open[0].piece) - std::size_t{1 + random.below(4)};
   const bool is_whole = std::all_of(found.open.begin(), found.open.end(), [&](const Weakly_visible::Pair& open) {
     return edges_between(occluders, sources[0], open.piece) <= most_edges;
   });

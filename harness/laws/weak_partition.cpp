@@ -4,6 +4,7 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/weak_outline.h>
 #include <sightline/kernel/vectors.h>
@@ -94,6 +95,7 @@ std::string flaw_of_places(const Occluders& occluders, const Weak_source& source
     const std::size_t found = partition.cell_at(at[0], at[1]);
     const bool is_sliver = partition.cells[c].area.low < 1e-6;  // doubles do not tell where it is
     if (found != c && found != Light_partition::none && !is_sliver) return "a point of a cell is found in another one";
+    if (partition.point(at[0], at[1]) != point_of(partition, at)) return "a point of the chart is elsewhere in space";
   }
   for (const auto& [x, y] : {std::array{0, 1}, {2, 1}, {1, 0}, {1, 2}})  // halves of the chart's sides
     if (partition.cell_at(Rational(x) / 2, Rational(y) / 2) != Light_partition::none)
@@ -129,6 +131,17 @@ std::string flaw_of_shares(const Scene& scene, const std::vector<Light_partition
   return is_whole(shares_of_face(scene, pieces)) ? "" : "its shares are not all of it";
 }
 
+/// An L about a point of the scene, of several pieces. Returns whether it has an area.
+bool add_bent_face(Polygon_soup& soup, Random& random) {
+  if (soup.point_count() == 0) return false;
+  const Exact_point origin = soup.point(static_cast<Point_id>(random.below(soup.point_count()))),
+                    u = generate::lattice(random, 2), v = generate::lattice(random, 2);
+  if (is_zero(cross(u, v))) return false;
+  soup.add_face(
+      generate::added(soup, generate::in_plane(origin, u, v, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})));
+  return true;
+}
+
 }  // namespace
 
 Check partition_check() {
@@ -137,12 +150,15 @@ Check partition_check() {
           "their light says",
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_pieces = 10;
-            const Scene scene(posed.soup);
+            Polygon_soup soup = posed.soup;
+            const bool is_bent = random.chance(1, 4) && add_bent_face(soup, random);
+            const Scene scene(soup);
             constexpr int most_bits = 100;  // an arrangement's roots have some fifty times as many
             if (scene.pieces().empty() || scene.pieces().size() > most_pieces || scene.bits() > most_bits)
               return Outcome::not_applicable();
-            const Face_id face = scene.pieces()[random.below(scene.pieces().size())].face;
-            if (answer.labels[face] == Answer::none) return Outcome::not_applicable();
+            const Face_id face =
+                is_bent ? scene.pieces().back().face : scene.pieces()[random.below(scene.pieces().size())].face;
+            if (!is_bent && answer.labels[face] == Answer::none) return Outcome::not_applicable();
             const Occluders occluders(scene);
             const Weak_source source = weak_source(occluders, posed.source);
             const Light_partitioner partitioner(scene);
@@ -150,12 +166,20 @@ Check partition_check() {
             Partition_options options;
             constexpr std::size_t most_rectangles = 2000;
             options.out_of_time = [&] { return ++asked > most_rectangles; };
+            double told = 0;
+            bool is_told_wrongly = false;
+            options.progress = [&](double share) {
+              is_told_wrongly |= share < told || share > 1 + 1e-9;
+              told = share;
+            };
             bool some_light = false, open = false;
             std::vector<Light_partition> pieces;
             for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
               if (scene.pieces()[piece].face != face) continue;
               Partition_counters counters;
+              told = 0;
               const Light_partition partition = partitioner.partition(piece, {posed.source}, options, counters);
+              if (is_told_wrongly) return Outcome::failed("a partition's progress goes back, or beyond all of it");
               constexpr std::size_t most_cells = 30;
               for (const auto& cell : partition.cells) {
                 if (random.chance(most_cells, std::max(most_cells, partition.cells.size())) &&
@@ -171,6 +195,7 @@ Check partition_check() {
             }
             const std::string flaw = flaw_of_shares(scene, pieces);
             if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
+            if (is_bent) return Outcome{};  // of which no answer is known
             if (some_light ? answer.labels[face] == 1 : !open && answer.labels[face] == 0) return Outcome{};
             if (!some_light && open) return Outcome::undecided();
             return Outcome::failed(face_name(face) + (some_light ? " has light in its partition, but is hidden"

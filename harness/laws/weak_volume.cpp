@@ -210,11 +210,26 @@ Outcome from_a_volume(const Posed_scene& posed, const Answer&, Random& random) {
   // 2. Faces that do not close up are refused.
   Faces faces = solid.faces();
   if (random.chance(1, 2)) {
-    Faces open = faces;
-    open.erase(open.begin() + static_cast<std::ptrdiff_t>(random.below(open.size())));
+    Faces open;
+    const char* what = "faces that do not close up are taken for a volume";
+    switch (random.below(3)) {
+      case 0:
+        open = faces;
+        open.erase(open.begin() + static_cast<std::ptrdiff_t>(random.below(open.size())));
+        break;
+      case 1: what = "no faces are taken for a volume"; break;
+      default: {
+        what = "a solid without its inside is taken for a volume";
+        Solid turned = solid;
+        for (Body& body : turned.bodies) body.winding = -body.winding;
+        open = faces;
+        const Faces back = turned.faces();
+        open.insert(open.end(), back.begin(), back.end());
+      }
+    }
     try {
       const Weak_volume volume(generate::soup_of(open));
-      return Outcome::failed("faces that do not close up are taken for a volume");
+      return Outcome::failed(what);
     } catch (const std::invalid_argument&) {
     }
   }

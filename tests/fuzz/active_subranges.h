@@ -45,10 +45,20 @@ inline void active_subranges(std::string_view bytes) {
     Subrange_tree<Quadratic_root> tree({whole});
     Active_subranges<Quadratic_root> active(whole);
     bits.assign(keys, true);
-    const bool narrow = from.below(2) == 0;
-    for (std::size_t k = from.below(narrow ? 96 : 12); k > 0 && !from.empty(); --k) {
-      const std::size_t low = from.below(keys + 1),
-                        high = narrow ? std::min(keys, low + from.below(3)) : from.below(keys + 1);
+    const bool narrow = from.below(2) == 0, comb = from.below(4) == 0;  // a comb leaves as many as there may be
+    std::size_t tooth = from.below(3);
+    for (std::size_t k = comb ? keys : from.below(narrow ? 96 : 12); k > 0 && !from.empty(); --k) {
+      std::size_t low = from.below(comb && k > 8 ? 1 : keys + 1),
+                  high = narrow ? std::min(keys, low + from.below(3)) : from.below(keys + 1);
+      if (comb && k > 8) {
+        if (tooth >= keys) {
+          k = 9;
+          continue;
+        }
+        low = tooth;
+        high = low + 1;
+        tooth += 2;
+      }
       for (std::size_t bit = low; bit < high; ++bit) bits[bit] = false;
       list.subtract(key(low), key(high));
       tree.subtract(key(low), key(high));

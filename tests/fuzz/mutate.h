@@ -123,8 +123,25 @@ class Mutator {
     return *at;
   }
 
+  /// A value of another kind than is wanted, as likely as not.
+  Json odd_value() {
+    switch (below(10)) {
+      case 0: return nullptr;
+      case 1: return below(2) == 0;
+      case 2: return -1;
+      case 3: return 0.5;
+      case 4: return std::uint64_t{1} << (31 + below(33));
+      case 5: return "";
+      case 6: return "a \"b\" \\c\x01";
+      case 7: return Json::array();
+      case 8: return Json::object();
+      default: return Json::array({Json::array(), 1, "1"});
+    }
+  }
+
   void damage(Json& value, const Json& other) {
-    if (value.is_boolean()) value = !value.get<bool>();
+    if (below(6) == 0) value = odd_value();
+    else if (value.is_boolean()) value = !value.get<bool>();
     else if (value.is_number()) value = below(3) == 0 && other.is_number() ? other : Json(below(12));
     else if (value.is_string()) value = exact_number(value.get<std::string>(), other);
     else if (value.is_array() && !value.empty()) damage_list(value, other);

@@ -16,6 +16,8 @@
 
 #include <cstddef>
 #include <functional>
+#include <iterator>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -65,12 +67,14 @@ class Nonsense {
   }
   void way(const char* what, std::function<void(Bytes&)> say) { ways_.emplace_back(what, std::move(say)); }
 
-  /// Says where; empty: nowhere.
+  /// Says where; empty: nowhere. What a certificate has one of is taken as often as what it has thousands of.
   std::string tell(Bytes& bytes) const {
-    if (ways_.empty()) return {};
-    const auto& [what, say] = ways_[bytes.word() % ways_.size()];
-    say(bytes);
-    return what;
+    std::map<std::string, std::vector<std::size_t>> by_name;
+    for (std::size_t k = 0; k < ways_.size(); ++k) by_name[ways_[k].first].push_back(k);
+    if (by_name.empty()) return {};
+    const auto& [name, own] = *std::next(by_name.begin(), static_cast<std::ptrdiff_t>(bytes.word() % by_name.size()));
+    ways_[own[bytes.word() % own.size()]].second(bytes);
+    return name;
   }
 
  private:
@@ -88,6 +92,13 @@ inline void add_of_scene(Nonsense& nonsense, Covering& claim, std::size_t faces)
     nonsense.points("piece.vertices", piece.vertices);
   }
   for (Covering::Set_aside& entry : claim.set_aside) {
+    if (entry.why.starts_with("zero area") && !claim.fragments.empty())
+      nonsense.way("a face without area in pieces", [&claim, face = entry.face](Bytes& bytes) {
+        claim.pieces.push_back(
+            {face, 0,
+             claim.fragments[bytes.below(claim.fragments.size() % 256 + 1) % claim.fragments.size()].vertices});
+        if (bytes.below(2) == 0) std::erase_if(claim.set_aside, [&](const auto& one) { return one.face == face; });
+      });
     nonsense.place("entry.face", entry.face, faces);
     nonsense.way("entry.why", [&entry](Bytes& bytes) { entry.why = bytes.below(2) == 0 ? "" : " " + entry.why; });
   }
@@ -135,11 +146,17 @@ inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
     nonsense.emptied("source", source);
   }
   nonsense.emptied("sources", claim.sources);
-  nonsense.way("undecided", [&claim](Bytes& bytes) {  // it is drawn and decided, or named twice, or none
-    const std::size_t at = bytes.below(256);
-    claim.undecided.push_back(claim.fragments.empty() || at == 255 ? ~Face_id{0}
-                                                                   : claim.fragments[at % claim.fragments.size()].face);
-  });
+  nonsense.way("a face undecided that there is not",
+               [&claim](Bytes& bytes) { claim.undecided.push_back(~Face_id{0} - bytes.byte()); });
+  for (const Covering::Set_aside& entry : claim.set_aside)
+    nonsense.way("a face undecided that is not drawn",
+                 [&claim, face = entry.face](Bytes&) { claim.undecided.push_back(face); });
+  for (const Order_fragment& fragment : claim.fragments) {  // it is decided, or undecided already
+    nonsense.way("a face undecided that is decided",
+                 [&claim, face = fragment.face](Bytes&) { claim.undecided.push_back(face); });
+    nonsense.way("a face undecided twice",
+                 [&claim, face = fragment.face](Bytes&) { claim.undecided.insert(claim.undecided.end(), 2, face); });
+  }
   for (Weak_certificate::Sightline& line : claim.visible) {
     nonsense.place("line.fragment", line.fragment, fragments);
     nonsense.place("line.source", line.source, sources);
@@ -160,6 +177,18 @@ inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
     nonsense.place("entry.source", entry.source, sources);
     for (std::size_t& other : entry.also) nonsense.place("other", other, fragments);
     nonsense.ended("entry.proof", entry.proof);
+    if (sources > 0 && !claim.sources[0].empty())  // all of the source is behind the cut
+      nonsense.way("something is told of nothing", [&claim, &entry](Bytes& bytes) {
+        Weak_certificate::Node cut, leaf;
+        cut.kind = Kind::cut_source;
+        Rational most = claim.sources[0][0][0];
+        for (const Points& source : claim.sources)
+          for (const Exact_point& p : source) most = std::max(most, p[0]);
+        cut.plane = {Rational(1), Rational(0), Rational(0), Rational(-most - 1)};
+        leaf.kind = bytes.below(2) == 0 ? Kind::blocked : Kind::empty;
+        if (leaf.kind == Kind::empty) leaf.terms.emplace_back();
+        entry.proof.insert(entry.proof.begin(), {cut, leaf});
+      });
     for (Weak_certificate::Node& node : entry.proof) {
       const bool is_cut = node.kind == Kind::cut_source || node.kind == Kind::cut_target;
       if (is_cut && entry.source < sources && entry.fragment < fragments)
@@ -168,6 +197,7 @@ inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
                                                                            : claim.fragments[entry.fragment].vertices);
         });
       nonsense.emptied("node.terms", node.terms);
+      nonsense.way("a kind that there is not", [&node](Bytes&) { node.kind = static_cast<Kind>(99); });
       if (node.kind == Kind::empty && node.terms.empty())  // nothing is inside
         nonsense.way("node.kind",
                      [&node](Bytes& bytes) { node.kind = bytes.below(2) == 0 ? Kind::away : Kind::blocked; });
@@ -179,6 +209,14 @@ inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
       for (Weak_certificate::Term& term : node.terms) {
         add_line(term.line);
         nonsense.number("term.factor", term.factor);
+        nonsense.way("a factor that is not positive", [&term](Bytes& bytes) {
+          term.factor = bytes.below(2) == 0 ? Rational(0) : Rational(-term.factor);
+        });
+        for (auto* form : {&term.source, &term.target})
+          if (*form)
+            nonsense.way("a form that is not positive", [form](Bytes&) {
+              for (Rational& x : **form) x = -x;
+            });
         if (term.source) nonsense.numbers("term.source", *term.source);
         if (term.target) nonsense.numbers("term.target", *term.target);
       }

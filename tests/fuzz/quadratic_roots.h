@@ -80,6 +80,15 @@ inline void quadratic_roots(std::string_view bytes) {
     Integer k = near_a.low;
     k >>= places - count;  // value 2^count is in [k, k + 1]
     require(abs(a.bits(count) - k) <= 2, "bits are those of the root");
+    const std::array<Rational, 2> bounds = a.bounds();
+    const Quadratic own = a.polynomial();
+    const auto is_at = [&](const Rational& s) { return Quadratic_root(s.get_num(), 0, Integer(0), s.get_den()); };
+    if (bounds[0] == bounds[1])
+      require(a.rational() && *a.rational() == bounds[0] && a == is_at(bounds[0]), "a fraction is its own bounds");
+    else
+      require(!a.rational() && own.sign(bounds[0]) * own.sign(bounds[1]) < 0 && is_at(bounds[0]) < a &&
+                  a < is_at(bounds[1]),
+              "a root is within its bounds, and no other one of its polynomial");
     for (const auto& [b, near_b] : all) {
       require(compare(a, b) == compare(near_a, near_b), "roots are compared rightly");
       if (compare(near_a, near_b) >= 0) continue;

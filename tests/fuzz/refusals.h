@@ -3,6 +3,7 @@
 
 #include "support.h"
 
+#include <sightline/algorithms/image/blend.h>
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
@@ -183,6 +184,25 @@ inline void try_image(Bytes& from) {
   require(refused != right, "an image is refused iff its size or its directions are wrong");
 }
 
+inline void try_tints(Bytes& from) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::array<double, 8> numbers{0, 1, 0.5, 1 + 0x1p-52, -0x1p-1074, infinity, -infinity, std::nan("")};
+  const std::size_t pieces = from.below(4);
+  std::vector<Tint> tints(from.below(4));
+  bool right = tints.size() >= pieces;
+  for (Tint& tint : tints) {
+    const auto any = [&] { return numbers[from.below(from.below(4) == 0 ? numbers.size() : 3)]; };
+    for (double& c : tint.colour) {
+      c = any();
+      right = right && std::isfinite(c);
+    }
+    tint.alpha = any();
+    right = right && tint.alpha >= 0 && tint.alpha <= 1;
+  }
+  require(is_refused<std::invalid_argument>([&] { image_detail::check_tints(tints, pieces); }) != right,
+          "tints are refused iff there are too few, or one is no colour, or no share");
+}
+
 // ---- Soups
 
 inline void try_soup(Bytes& from) {
@@ -213,6 +233,7 @@ inline void refusals(std::string_view bytes) {
   switch (from.below(8)) {
     case 0: try_image(from); break;
     case 1: try_soup(from); break;
+    case 2: try_tints(from); break;
     default: try_source(from);
   }
 }

@@ -13,11 +13,11 @@
 
 namespace fuzz {
 
-/// What a check says of a scene. One that asks a share of the scenes is asked until it answers.
+/// What a check says of a scene. One that asks a share of the scenes is asked until it answers, or so often.
 inline harness::Outcome asked(const harness::Check& check, const Posed_scene& scene, const harness::Answer& answer,
-                              std::uint64_t seed) {
+                              std::uint64_t seed, std::uint64_t times) {
   harness::Outcome outcome = harness::Outcome::not_applicable();
-  for (std::uint64_t k = 0; k < 400 && outcome.state == harness::Outcome::State::not_applicable; ++k) {
+  for (std::uint64_t k = 0; k < times && outcome.state == harness::Outcome::State::not_applicable; ++k) {
     Random random(seed + k);
     outcome = check.run(scene, answer, random);
   }
@@ -26,9 +26,9 @@ inline harness::Outcome asked(const harness::Check& check, const Posed_scene& sc
 
 inline void scene_laws(std::string_view bytes) {
   static const std::vector<harness::Subject> subjects{harness::order(), harness::graph(), harness::cutset()};
-  static const std::set<std::string> meant{"definition", "graph",   "graph two-sided", "gmpq",   "points", "first hit",
-                                           "parts",      "path",    "face graph",      "region", "rays",   "pixels",
-                                           "splits",     "explicit"};
+  static const std::set<std::string> meant{
+      "definition", "graph", "graph two-sided", "gmpq",   "points",   "first hit", "parts", "path", "face graph",
+      "region",     "rays",  "pixels",          "splits", "explicit", "empty"};
   Bytes from(bytes);
   Random random(from.word());
   Posed_scene scene;
@@ -48,7 +48,7 @@ inline void scene_laws(std::string_view bytes) {
   if (!answer.flaw.empty()) throw Finding(subject.name + ": " + answer.flaw);
   for (const harness::Check& check : subject.checks) {
     if (meant.count(check.name) == 0) continue;
-    const harness::Outcome outcome = asked(check, scene, answer, random.below(1u << 30));
+    const harness::Outcome outcome = asked(check, scene, answer, random.below(1u << 30), 400);
     if (outcome.state == harness::Outcome::State::failed)
       throw Finding(subject.name + ", " + check.name + ": " + outcome.what);
   }

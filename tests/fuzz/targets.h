@@ -17,6 +17,7 @@
 #include "fixed_integer.h"
 #include "forged.h"
 #include "mutate.h"
+#include "only_nonsense.h"
 #include "other_readers.h"
 #include "pairs.h"
 #include "pictures.h"
@@ -27,6 +28,7 @@
 #include "scene_laws.h"
 #include "separations.h"
 #include "side.h"
+#include "subject_laws.h"
 #include "text_numbers.h"
 #include "volumes.h"
 #include "weak_claims.h"
@@ -63,6 +65,7 @@ inline const std::vector<Target>& targets() {
                                        {"number_lines", number_lines, {"paths/"}},
                                        {"certificate", certificate, {"certificates/"}},
                                        {"forged", forged, {}},
+                                       {"only_nonsense", only_nonsense, {}},
                                        {"fixed_integer", fixed_integer, {}},
                                        {"side", side, {}},
                                        {"quadratic_roots", quadratic_roots, {}},
@@ -72,6 +75,11 @@ inline const std::vector<Target>& targets() {
                                        {"faces", faces, {}},
                                        {"weak_claims", weak_claims, {}},
                                        {"scene_laws", scene_laws, {}},
+                                       {"weak_laws", weak_laws, {}},
+                                       {"level_laws", level_laws, {}},
+                                       {"image_laws", image_laws, {}},
+                                       {"solid_laws", solid_laws, {}},
+                                       {"view_laws", view_laws, {}},
                                        {"separations", separations, {}},
                                        {"decisions", decisions, {}},
                                        {"refusals", refusals, {}},

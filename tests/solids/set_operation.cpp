@@ -452,6 +452,21 @@ std::string said_of(const std::string& text) {
   return "";
 }
 
+TEST(Certificates, with_any_words_are_read_as_they_were_written) {
+  Solid_certificate certificate;
+  certificate.operation = "a \"word\"";
+  certificate.inside = "\\\x01";
+  certificate.operands = 1;
+  certificate.set_aside.push_back({0, 0, "\"\t\n"});
+  std::ostringstream text;
+  write_solid_certificate(text, certificate);
+  const Solid_certificate read = read_solid_certificate(text.str());
+  EXPECT_EQ(read.operation, certificate.operation);
+  EXPECT_EQ(read.inside, certificate.inside);
+  ASSERT_EQ(read.set_aside.size(), 1u);
+  EXPECT_EQ(read.set_aside[0].why, certificate.set_aside[0].why);
+}
+
 TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
   const std::vector<Polygon_soup> solids{box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 2})};
   const Operands operands(solids);

@@ -57,7 +57,6 @@ bool meets(const Piece_view& view, const Quadratic_root& t, std::uint32_t number
 /// Edges of three lines that are concurrent at t, not all along, and met by one ray; none where there are none.
 std::optional<Along_cause> met_together(const Piece_view& view, const Quadratic_root& t,
                                         const std::array<std::uint32_t, 3>& lines) {
-  if (lines[0] == lines[1] || lines[1] == lines[2] || lines[0] == lines[2]) return std::nullopt;
   const Quadratic f = determinant(view.line(lines[0]), view.line(lines[1]), view.line(lines[2]));
   if (f.is_zero() || t.sign_of(f) != 0) return std::nullopt;
   Along_cause cause{Along_kind::triple, {}};
@@ -72,13 +71,8 @@ std::optional<Along_cause> met_together(const Piece_view& view, const Quadratic_
 }  // namespace
 
 const char* name(Along_kind kind) {
-  switch (kind) {
-    case Along_kind::plane: return "horizon";
-    case Along_kind::contact: return "contact";
-    case Along_kind::edge_vertex: return "edge and vertex";
-    case Along_kind::triple: break;
-  }
-  return "triple";
+  constexpr const char* names[] = {"horizon", "contact", "edge and vertex", "triple"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 Along_cause cause_of(const Piece_view& view, const Quadratic_root& t,

@@ -1,5 +1,6 @@
 #include <sightline/algorithms/weak_visibility/events/event_curve.h>
 
+#include <algorithm>
 #include <cstddef>
 
 namespace sightline {
@@ -59,11 +60,8 @@ std::vector<Parameter_range> changing(const std::array<Quadratic, 4>& ends) {
 
 Homogeneous off_plane(const Homogeneous& plane) {
   Homogeneous x{0, 0, 0, 0};
-  for (std::size_t k = 0; k < 4; ++k)
-    if (sgn(plane[k]) != 0) {
-      x[k] = 1;
-      break;
-    }
+  const auto first = std::find_if(plane.begin(), plane.end(), [](const Integer& c) { return sgn(c) != 0; });
+  x[static_cast<std::size_t>(first - plane.begin())] = 1;
   return x;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <span>
-#include <stdexcept>
 #include <utility>
 
 namespace sightline {
@@ -360,10 +359,9 @@ bool Event_search::look_around(const Event_curve& curve, const Rational& s, int 
 
 int Event_search::orientation(const Event_chart& chart, const Event_curve& curve, const Rational& s) {
   const Exact_pluecker line = join(chart.v, chart.w);
-  for (std::size_t k = 0; k < 6; ++k)
-    if (sgn(line[k]) != 0)
-      return sgn(line[k]) * Quadratic{{curve.lines()[0][k], curve.lines()[1][k], curve.lines()[2][k]}}.sign(s);
-  throw std::logic_error("a chart of no line");
+  const auto entry = std::find_if(line.begin(), line.end(), [](const Integer& x) { return sgn(x) != 0; });
+  const auto k = static_cast<std::size_t>(entry - line.begin());
+  return sgn(line[k]) * Quadratic{{curve.lines()[0][k], curve.lines()[1][k], curve.lines()[2][k]}}.sign(s);
 }
 
 void Event_search::confirm(const Event_chart& chart, const Event_move& move) {

@@ -330,7 +330,7 @@ Line_search::Refutation Line_search::branch(std::uint32_t d, const Candidate& bl
   }
   // 2. Inside of all of them: blocked. Or what an edge did not need.
   Refutation rest;
-  if (path_.size() == base + unknown.size() && outside.size() == unknown.size()) {
+  if (path_.size() == base + unknown.size()) {
     ++counters_->blocked;
     Used used;
     for (const Edge_sign& edge : signs_of(blocker))
