@@ -124,6 +124,8 @@ inline void try_tests(Bytes& from) {
         },
         &tests);
     require(found == view, "tests of a view end at it");
+    require(tree->run([on_view = view](std::uint32_t face) { return (on_view >> face & 1) != 0; }) == view,
+            "so they do where nobody counts them");
     expected += weight * tests;
   }
   require(tree->views.size() == weights.size(), "each view is one end");
