@@ -66,12 +66,21 @@ inline void active_subranges(std::string_view bytes) {
       require(tree.empty() == list.empty() && active.empty() == list.empty(), "all sets know whether anything is left");
       if (list.empty()) break;
       require(tree.first().low == list.first().low && tree.first().high == list.first().high &&
-                  tree.last().low == list.last().low && tree.last().high == list.last().high,
+                  tree.last().low == list.last().low && tree.last().high == list.last().high &&
+                  active.first().low == list.first().low && active.last().high == list.last().high,
               "first and last ranges");
     }
     require(are_runs(list.ranges(), bits), "the list's ranges are those of bits");
     require(are_runs(tree.ranges(), bits), "the tree's ranges are those of bits");
     require(are_runs(active.ranges(), bits), "the set's ranges are those of bits");
+    if (list.empty()) {  // nothing is asked of nothing
+      subtract_where(active, {}, [](const Rational&) -> bool { throw Finding("a place is looked at in no range"); });
+    } else {
+      Subrange_tree<Quadratic_root> rest(list.ranges());
+      rest.subtract(key(0), list.first().low);
+      rest.subtract(list.last().high, key(keys));
+      require(are_runs(rest.ranges(), bits), "what is beyond all ranges takes nothing away");
+    }
     return active;
   };
   std::vector<bool> a, b;

@@ -8,6 +8,7 @@
 #include <sightline/algorithms/cutset/decision_tree.h>
 #include <sightline/algorithms/cutset/motion.h>
 #include <sightline/algorithms/cutset/view_cells.h>
+#include <sightline/harness/generate/random.h>
 
 #include <algorithm>
 #include <array>
@@ -80,13 +81,16 @@ inline Rational least_of_binary_trees(std::multiset<Rational> weights) {
 }
 
 inline void try_tests(Bytes& from) {
-  const unsigned faces = 1 + static_cast<unsigned>(from.below(from.below(4) == 0 ? 32 : 6));
+  const bool many = from.below(48) == 0;  // so that more sets of views are searched than there is room for at first
+  generate::Random random(from.word());
+  const unsigned faces = many ? 11 : 1 + static_cast<unsigned>(from.below(from.below(4) == 0 ? 32 : 6));
   const bool long_weights = from.below(4) == 0;
   std::vector<Weighted_view> given;
   std::map<std::uint32_t, Rational> weights;
   Rational total = 0;
-  for (std::size_t k = 1 + from.below(9); k > 0; --k) {
-    const std::uint32_t view = static_cast<std::uint32_t>(from.word() & ((std::uint64_t{1} << faces) - 1));
+  for (std::size_t k = many ? 26 : 1 + from.below(9); k > 0; --k) {
+    const std::uint32_t view =
+        static_cast<std::uint32_t>((many ? random.below(1u << 30) : from.word()) & ((std::uint64_t{1} << faces) - 1));
     Rational weight(abs(from.integer(long_weights ? 64 : 5)), 1 + from.below(4));
     weight.canonicalize();
     given.push_back({view, weight});

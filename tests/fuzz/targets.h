@@ -28,6 +28,7 @@
 #include "scene_laws.h"
 #include "separations.h"
 #include "side.h"
+#include "single_parts.h"
 #include "subject_laws.h"
 #include "text_numbers.h"
 #include "volumes.h"
@@ -83,6 +84,7 @@ inline const std::vector<Target>& targets() {
                                        {"separations", separations, {}},
                                        {"decisions", decisions, {}},
                                        {"refusals", refusals, {}},
+                                       {"single_parts", single_parts, {}},
                                        {"volumes", volumes, {}},
                                        {"conics", conics, {}},
                                        {"arcs", arcs, {}},
