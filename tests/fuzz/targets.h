@@ -6,6 +6,7 @@
 #include "arcs.h"
 #include "bsp_queries.h"
 #include "certificate.h"
+#include "certificate_forms.h"
 #include "conics.h"
 #include "cover.h"
 #include "cutset.h"
@@ -33,6 +34,7 @@
 #include "text_numbers.h"
 #include "volumes.h"
 #include "weak_claims.h"
+#include "weak_parts.h"
 
 #include <filesystem>
 #include <fstream>
@@ -85,6 +87,8 @@ inline const std::vector<Target>& targets() {
                                        {"decisions", decisions, {}},
                                        {"refusals", refusals, {}},
                                        {"single_parts", single_parts, {}},
+                                       {"weak_parts", weak_parts, {}},
+                                       {"certificate_forms", certificate_forms, {}},
                                        {"volumes", volumes, {}},
                                        {"conics", conics, {}},
                                        {"arcs", arcs, {}},

@@ -1,0 +1,146 @@
+#pragma once
+// Small certificates of which one part is written in each of its forms, right and wrong: which of these are taken is
+// known.
+
+#include "other_readers.h"
+#include "support.h"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fuzz {
+
+struct Form {
+  std::string_view text;
+  bool is_right;
+};
+
+/// A certificate with a place for a part, and what that may be.
+struct Formed_certificate {
+  std::string_view before, after;
+  std::vector<Form> forms;
+};
+
+inline const std::vector<Formed_certificate>& formed_certificates() {
+  static constexpr std::string_view end =
+      R"(,"fragments":[{"face":0,"piece":0,"vertices":[["0","0","0"],["1","0","0"],["0","1","0"]]}]})";
+  static constexpr std::string_view end_with_points =
+      R"(,"points":[["0","0","0"],["1","0","0"],["0","1","0"]],"fragments":[{"face":0,"piece":0,"vertices":[0,1,2]}]})";
+  static constexpr std::string_view see = R"({"format":"sightline see 2","eye":["0","0","9"],"parts":[)";
+  static const std::vector<Formed_certificate> all{
+      {R"({"format":"sightline weak 3","sources":[[["0","0","5"],["0","1","5"],["1","0","5"]]],"lines":[[0,0]],)"
+       R"("visible":[],"hidden":[{"fragment":0,"source":0,"proof":[["empty",[)",
+       R"(]]]}])",
+       {{R"([0,"1"])", true},
+        {R"([0,"-2/3",{}])", true},
+        {R"([0,"1",{"source":["0","0","1","0"]}])", true},
+        {R"([0,"1",{"source":["0","0","1","0"],"target":["1","0","0","0"]}])", true},
+        {R"([0])", false},
+        {R"([0,"1",{},{}])", false},
+        {R"([0,"1",5])", false},
+        {R"([0,"1",["0"]])", false},
+        {R"([0,"1",{"source":["0","0","1"]}])", false},
+        {R"([1,"1"])", false},
+        {R"("1")", false}}},
+      {R"({"format":"sightline along 2","path":[["0","0","5"],["1","0","5"]],"moments":[{"root":"0"},{"root":"1"}],)"
+       R"("faces":[],"proofs":[{"fragment":0,"moments":[0,1],"tree":[)",
+       R"(]}])",
+       {{R"(["blocked",0])", true},
+        {R"(["blocked",0],["blocked",0])", true},
+        {R"(["blocked",0,0])", false},
+        {R"(["blocked"])", false},
+        {R"(["blocked",1])", false},
+        {R"([])", false},
+        {R"(5)", false},
+        {"", false}}},
+      {see,
+       R"(],"empty":[],"rays":[["0","0","-1"],["1","0","-1"],["0","1","-1"]])",
+       {{R"({"fragment":0,"rays":[0,1,2]})", true},
+        {R"({"fragment":0,"vertices":[["0","0","0"],["1","0","0"],["0","1","0"]],"ray":["0","0","-1"]})", true},
+        {R"({"fragment":0,"rays":[0,1]})", false},
+        {R"({"fragment":0,"rays":[0,1,3]})", false},
+        {R"({"fragment":1,"rays":[0,1,2]})", false},
+        {R"({"fragment":0,"rays":[0,1,2],"ray":["0","0","-1"]})", false},
+        {R"({"fragment":0,"rays":[0,1,2],"vertices":[["0","0","0"],["1","0","0"],["0","1","0"]]})", false},
+        {R"({"fragment":0,"fragment":0,"rays":[0,1,2]})", false}}},
+      {R"({"format":"sightline see 2","eye":["0","0","9"],"parts":[],"empty":[],"field":)",
+       "",
+       {{R"([["0","0","-1"],["1","0","-1"],["0","1","-1"]])", true},
+        {R"([["0","0","-1"],["1","0","-1"],0])", false},
+        {R"(7)", false}}},
+      {R"({"format":"sightline )",
+       R"(","eye":["0","0","9"],"parts":[],"empty":[])",
+       {{"see 1", true},
+        {"see 2", true},
+        {"see 3", false},
+        {"see 0", false},
+        {"see", false},
+        {"see 21", false},
+        {"order 2", true},
+        {"order 3", false},
+        {"weak 3", false}}},
+      {R"({"format":"sightline see 2","eye":["0","0","9"],"parts":[],"empty":[],)",
+       R"("proofs":[])",
+       {{"", true},
+        {R"("lines":[7],)", true},  // of another kind, whatever it says
+        {R"("path":7,)", true},
+        {R"("empty":[],)", false},
+        {R"("parts":7,)", false},
+        {R"("rays":7,)", false}}}};
+  static const std::vector<Formed_certificate> by_points{
+      {see,
+       R"(],"empty":[])",
+       {{R"({"fragment":0,"vertices":[0,1,2],"ray":["0","0","-1"]})", true},
+        {R"({"fragment":0,"vertices":[2,1,0],"ray":["0","0","-1"]})", true},
+        {R"({"fragment":0,"vertices":[0,1,3],"ray":["0","0","-1"]})", false},
+        {R"({"fragment":0,"vertices":[0,1,-1],"ray":["0","0","-1"]})", false}}},
+      {R"({"format":"sightline see 2","eye":["0","0","9"],"parts":[],"empty":[],"field":)",
+       R"(,"rays":[["0","0","-1"],["1","0","-1"],["0","1","-1"]])",
+       {{"[0,1,2]", true}, {"[0,1,3]", false}, {"[0,1,4294967296]", false}}},
+      {R"({"format":"sightline see 2","eye":["0","0","9"],"parts":[],"empty":[)",
+       R"(],"rays":[["0","0","-1"],["1","0","-1"],["0","1","-1"]])",
+       {{"[0,1,2]", true}, {"[0,1,3]", false}, {"", true}}},
+      {R"({"format":"sightline weak 3","lines":[],"visible":[],"hidden":[],"sources":[)",
+       "]",
+       {{"[0,1,2]", true}, {"[0,1,3]", false}}}};
+  static const std::vector<Formed_certificate> whole = [] {
+    std::vector<Formed_certificate> found;
+    const auto add = [&](const std::vector<Formed_certificate>& from, std::string_view last) {
+      for (const Formed_certificate& one : from)
+        for (const Form& form : one.forms)
+          found.push_back({one.before, last, {{form.text, form.is_right}, {one.after, true}}});
+    };
+    add(all, end);
+    add(by_points, end_with_points);
+    return found;
+  }();
+  return whole;
+}
+
+/// One of them, with blanks between its tokens or without.
+inline void certificate_forms(std::string_view bytes) {
+  Bytes from(bytes);
+  const std::vector<Formed_certificate>& all = formed_certificates();
+  const Formed_certificate& one = all[from.word() % all.size()];
+  const bool is_right = one.forms[0].is_right, has_lines = from.below(2) == 0;
+  const std::string whole = std::string(one.before) + std::string(one.forms[0].text) + std::string(one.forms[1].text) +
+                            std::string(one.after);
+  std::string text;
+  bool is_quoted = false;
+  for (const char c : whole) {
+    is_quoted = is_quoted != (c == '"');
+    text += c;
+    if (has_lines && c == ',' && !is_quoted) text += from.below(2) == 0 ? "\n" : " ";
+  }
+  const auto certificate = taken("certificate: ", [&] {
+    std::istringstream in{text};
+    return sightline::read_certificate(in);
+  });
+  if (certificate.has_value() != is_right)
+    throw Finding((is_right ? "a form that is right is refused: " : "a form that is wrong is taken: ") + text);
+  read_certificate(text);
+}
+
+}  // namespace fuzz
