@@ -17,6 +17,7 @@
 #include "faces.h"
 #include "fixed_integer.h"
 #include "forged.h"
+#include "limits.h"
 #include "mutate.h"
 #include "only_nonsense.h"
 #include "other_readers.h"
@@ -88,6 +89,7 @@ inline const std::vector<Target>& targets() {
                                        {"refusals", refusals, {}},
                                        {"single_parts", single_parts, {}},
                                        {"weak_parts", weak_parts, {}},
+                                       {"limits", limits, {}},
                                        {"certificate_forms", certificate_forms, {}},
                                        {"volumes", volumes, {}},
                                        {"conics", conics, {}},
