@@ -80,8 +80,8 @@ inline void add_beside(Along_certificate& claim, std::size_t k, const Order_frag
 inline void add_beside(Weak_certificate& claim, std::size_t k, const Order_fragment& fragment) {
   std::vector<Weak_certificate::Hidden> entries;
   for (std::size_t i = 0; i < claim.hidden.size(); ++i)
-    claim.hidden[i].for_each_fragment([&](std::size_t fragment) {
-      if (fragment != k) return;
+    claim.hidden[i].for_each_fragment([&](std::size_t own) {
+      if (own != k) return;
       entries.push_back({claim.fragments.size(), claim.hidden[i].source, claim.hidden[i].proof});
     });
   claim.hidden.insert(claim.hidden.end(), entries.begin(), entries.end());
