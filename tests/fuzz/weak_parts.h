@@ -65,7 +65,13 @@ inline void try_parts_of_a_pair(generate::Random& random) {
   while (cells > 0) {
     const std::uint64_t kind = proof.size() > 5 ? 3 : random.below(5);
     const Near_polygon target = occluders.polygon(piece);
-    Weak_step step{kind == 0 ? Kind::line : kind == 1 ? Kind::cut_source : kind == 2 ? Kind::cut_target : Kind::open};
+    Weak_step step{kind == 0   ? Kind::line
+                   : kind == 1 ? Kind::cut_source
+                   : kind == 2 ? Kind::cut_target
+                               : Kind::open,
+                   0,
+                   {},
+                   {}};
     if (kind == 1) step.plane = cut_across(source.polygon, random);
     if (kind == 2) step.plane = cut_across(target, random);
     proof.push_back(std::move(step));
