@@ -57,7 +57,7 @@ inline void try_parts_of_a_pair(generate::Random& random) {
   const Occluders occluders(scene);
   const Weak_source source = weak_source(occluders, posed.source);
   const auto piece = static_cast<std::uint32_t>(random.below(scene.pieces().size()));
-  using Kind = Weak_step::Kind;
+  using Step = Weak_step::Kind;
   Weakly_visible::Pair pair{piece, 0, {}};
   pair.answer.lines.push_back({static_cast<std::uint32_t>(random.below(scene.pieces().size())), 0});
   std::vector<Weak_step>& proof = pair.answer.proof;
@@ -65,13 +65,8 @@ inline void try_parts_of_a_pair(generate::Random& random) {
   while (cells > 0) {
     const std::uint64_t kind = proof.size() > 5 ? 3 : random.below(5);
     const Near_polygon target = occluders.polygon(piece);
-    Weak_step step{kind == 0   ? Kind::line
-                   : kind == 1 ? Kind::cut_source
-                   : kind == 2 ? Kind::cut_target
-                               : Kind::open,
-                   0,
-                   {},
-                   {}};
+    Weak_step step{};
+    step.kind = kind == 0 ? Step::line : kind == 1 ? Step::cut_source : kind == 2 ? Step::cut_target : Step::open;
     if (kind == 1) step.plane = cut_across(source.polygon, random);
     if (kind == 2) step.plane = cut_across(target, random);
     proof.push_back(std::move(step));
@@ -81,7 +76,7 @@ inline void try_parts_of_a_pair(generate::Random& random) {
   const std::vector<Open_cell> all = open_cells(occluders, source, pair, 1000),
                                one = open_cells(occluders, source, pair, 1);
   require(all.size() == static_cast<std::size_t>(std::count_if(
-                            proof.begin(), proof.end(), [](const Weak_step& step) { return step.kind == Kind::open; })),
+                            proof.begin(), proof.end(), [](const Weak_step& step) { return step.kind == Step::open; })),
           "each step that is open has its cell");
   require(one.size() == 1 && one[0].source == all[0].source && one[0].target == all[0].target,
           "the first cell is the first of all");
@@ -97,7 +92,10 @@ inline void try_parts_of_a_pair(generate::Random& random) {
   const std::uint64_t bound = random.below(4);
   std::size_t asks = 0;
   const std::size_t most_asks = random.below(random.chance(1, 2) ? 4 : 200);
-  if (bound == 0) options.events = random.below(20);
+  if (bound == 0) {
+    options.events = random.below(random.chance(1, 2) ? 400 : 20);
+    options.rays = 0;
+  }
   if (bound == 1) options.out_of_time = [&] { return ++asks > most_asks; };
   const Events_answer parts = open_pair_by_events(occluders, source, pair, most_edges, options, counters);
   require(parts.status == Weak_status::undecided || parts.status == whole,
