@@ -283,8 +283,9 @@ bool solve_equations(std::vector<std::vector<Number>>& a, std::vector<Number>& s
 /// The mixture of rows of a game's basis that gives all of its columns the same value: a square system, a(row, column)
 /// by `entry`. (For the mixture of columns: with their roles exchanged.) A value that is clear of zero stays so when
 /// weights are rounded, so that they are found, and returned, with 512 bits; rationals, whose length grows with that of
-/// the entries and their number, are left for values that may be zero. False where there is no single solution, no
-/// time, or more than 16 rows. Exact: where the value is zero; otherwise a proposal that is checked by those who ask.
+/// the entries and their number, are left for values that may be zero. False where there is no single solution (unless
+/// rounding makes one), no time, or more than 16 rows. Exact: where the value is zero; otherwise a proposal that is
+/// checked by those who ask.
 template <class Entry>
 bool solve_basis(const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, Entry entry,
                  std::vector<Rational>& weights, Rational& value, const std::function<bool()>& out_of_time = {}) {
