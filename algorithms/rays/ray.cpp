@@ -1,6 +1,8 @@
 #include <sightline/algorithms/rays/ray.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <tuple>
@@ -15,6 +17,21 @@ Exact_ray Double_ray::exact() const {
     ray.direction[k] = sightline::exact(direction[k]);
   }
   return ray;
+}
+
+Double_ray in_doubles(const Exact_ray& ray) {
+  Double_ray doubles;
+  for (std::size_t k = 0; k < 3; ++k) {
+    doubles.origin[k] = nearest_double(ray.origin[k]);
+    doubles.direction[k] = nearest_double(ray.direction[k]);
+  }
+  return doubles;
+}
+
+bool is_ray(const Double_ray& ray) {
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  return std::all_of(ray.origin.begin(), ray.origin.end(), is_finite) &&
+         std::all_of(ray.direction.begin(), ray.direction.end(), is_finite) && ray.direction != std::array<double, 3>{};
 }
 
 std::vector<Face_hit> hits_of(std::vector<Face_hit> parts, Ray_start start) {

@@ -22,6 +22,11 @@ struct Double_ray {
   Exact_ray exact() const;
 };
 
+/// Each number rounded to the nearest double: infinite beyond them, and what is short may have no direction left.
+Double_ray in_doubles(const Exact_ray& ray);
+/// Whether that is a ray, as Double_ray has to be.
+bool is_ray(const Double_ray& ray);
+
 /// Whether what holds the origin is met there. Rays that leave a surface want `open`, the default everywhere.
 enum class Ray_start {
   open,   ///< a part of a face that holds the origin is passed over, all along the ray's way in it

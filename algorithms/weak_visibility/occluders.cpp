@@ -149,6 +149,10 @@ std::optional<Small_point> small_point(const Near_point& p) {
   return small;
 }
 
+Ends ends_of_edge(std::span<const Triple> polygon, std::size_t i) {
+  return ends(size(polygon[i]), size(polygon[(i + 1) % polygon.size()]));
+}
+
 bool same_plane(const Near_plane& g, const Near_plane& h) {
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = i + 1; k < 4; ++k)
@@ -353,7 +357,7 @@ bool Occluders::blocks_all(std::uint32_t piece, const Near_polygon& source, cons
   // 3. On no pair of corners does a line pass an edge outside.
   const std::span<const Triple> polygon = corners(piece);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Ends of_edge = ends(sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()]));
+    const Ends of_edge = ends_of_edge(polygon, i);
     std::optional<Exact_pluecker> edge;  // once doubles do not tell
     for (std::size_t c = 0; c < pairs.size(); ++c) {
       const Near_point &p = source[c / target.size()], &q = target[c % target.size()];
@@ -361,12 +365,10 @@ bool Occluders::blocks_all(std::uint32_t piece, const Near_polygon& source, cons
                    bound = side_error(ends(sightline::size(p.near), sightline::size(q.near)), of_edge);
       if (height < -bound) return false;
       if (height > bound) continue;
-      if (const std::optional<int> side = small_side(p, q, edge_points(piece, i))) {
-        if (front * *side < 0) return false;
-        continue;
-      }
-      if (!edge) edge = exact_pluecker_of(edge_points(piece, i));
-      if (front * sgn(sightline::dot(pluecker_of_pair(p.exact, q.exact), *edge)) < 0) return false;
+      const std::optional<int> small = small_side(p, q, edge_points(piece, i));
+      if (!small && !edge) edge = exact_pluecker_of(edge_points(piece, i));
+      const int sign = small ? *small : sgn(sightline::dot(pluecker_of_pair(p.exact, q.exact), *edge));
+      if (front * sign < 0) return false;
     }
   }
   return true;
@@ -385,8 +387,7 @@ bool Occluders::lets_pass(std::uint32_t piece, const Near_polygon& source, const
   const Ends of_pairs = ends(reach(source), reach(target));
   const std::span<const Triple> polygon = corners(piece);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const double bound =
-        side_error(of_pairs, ends(sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()])));
+    const double bound = side_error(of_pairs, ends_of_edge(polygon, i));
     const Pluecker& edge = edges(piece)[i];
     for (const Pluecker& pair : pairs)
       if (front * dot(pair, edge) < -bound) return true;
@@ -476,8 +477,7 @@ bool Occluders::meets(std::uint32_t piece, const Near_point& p, const Near_point
   const std::span<const Triple> polygon = corners(piece);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const double value = from * sightline::dot(near_pair, edges(piece)[i]);
-    const double bound =
-        side_error(of_pair, ends(sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()])));
+    const double bound = side_error(of_pair, ends_of_edge(polygon, i));
     if (value < -bound) return false;
     if (value > bound) continue;
     if (from * sgn(sightline::dot(pair, exact_pluecker_of(edge_points(piece, i)))) < 0) return false;

@@ -4,19 +4,6 @@
 
 #include <sightline/kernel/number.h>
 
-namespace sightline::app {
-
-Double_ray in_doubles(const Exact_ray& ray) {
-  Double_ray doubles;
-  for (std::size_t k = 0; k < 3; ++k) {
-    doubles.origin[k] = nearest_double(ray.origin[k]);
-    doubles.direction[k] = nearest_double(ray.direction[k]);
-  }
-  return doubles;
-}
-
-}  // namespace sightline::app
-
 #ifdef SIGHTLINE_EMBREE
 
 #include <sightline/kernel/threads.h>

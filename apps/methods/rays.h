@@ -24,9 +24,6 @@ struct Traced_hit {
   bool back = false;  ///< from behind
 };
 
-/// Each number rounded to the nearest double.
-Double_ray in_doubles(const Exact_ray& ray);
-
 /// A scene's pieces in triangles, as Embree has it: corners in floats, and a hierarchy of boxes. `watertight`: its
 /// robust mode, which is to let no ray pass between triangles that share an edge. Errors: Usage_error where the program
 /// was built without Embree.

@@ -405,10 +405,7 @@ std::string set_of_solids(const Posed_scene& posed, const Manner& manner, std::u
   const std::vector<Polygon_soup> solids = solids_of(posed, random);
   if (solids.empty()) return {};
   const Operands operands(solids);
-  Set_options options;
-  options.operation = set_operations[random.below(4)];
-  options.inside = inside_rules[random.below(3)];
-  options.keep_fragments = true;
+  Set_options options = drawn_operation(random);
   options.progress = manner.progress;
   std::ostringstream out;
   run_with_threads(manner.threads, [&] {

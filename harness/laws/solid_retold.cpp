@@ -4,6 +4,7 @@
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/verify/solids.h>
 #include <sightline/harness/laws/flat_faces.h>
+#include <sightline/harness/laws/solids.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -147,10 +148,7 @@ std::string forge(Surface_loops& faces, const std::vector<Result_fragment>& frag
 }  // namespace
 
 std::string flaw_of_told_result(const std::vector<Polygon_soup>& solids, Random& random) {
-  Set_options options;
-  options.operation = set_operations[random.below(4)];
-  options.inside = inside_rules[random.below(3)];
-  options.keep_fragments = true;
+  const Set_options options = drawn_operation(random);
   const Operands operands(solids);
   const Set_result result = set_operation(operands, options);
   const Solid_certificate claim = solid_certificate(operands, options, result);

@@ -1,6 +1,7 @@
 #pragma once
 // The subject `boolean`: set operations on solids that are made of a scene's faces.
 
+#include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/subject.h>
 #include <sightline/kernel/number.h>
@@ -16,6 +17,16 @@ namespace sightline::harness {
 /// which an island touches it. Faces that cross themselves or have holes are left out. May be empty, and wound round
 /// any number of times.
 std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random);
+
+/// Any operation, with its fragments, as certificates ask for them.
+template <class Source>
+Set_options drawn_operation(Source& random) {
+  Set_options options;
+  options.operation = set_operations[random.below(4)];
+  options.inside = inside_rules[random.below(3)];
+  options.keep_fragments = true;
+  return options;
+}
 
 /// What is wrong with the four set operations on some solids; empty: nothing. By points: in the result iff the
 /// operands' winding numbers say so. By volumes, as rationals, of three solids at most: what is in the union and in the

@@ -261,14 +261,8 @@ Check in_doubles() {
             for (std::size_t k = 0; k < 4; ++k)
               for (const generate::Ray_kind& kind : generate::ray_kinds()) {
                 const Exact_ray drawn = kind.make(posed.soup, random);
-                Double_ray ray;
-                bool finite = true;
-                for (std::size_t i = 0; i < 3; ++i) {
-                  ray.origin[i] = nearest_double(drawn.origin[i]);
-                  ray.direction[i] = nearest_double(drawn.direction[i]);
-                  finite = finite && std::isfinite(ray.origin[i]) && std::isfinite(ray.direction[i]);
-                }
-                if (!finite || ray.direction == std::array<double, 3>{}) continue;
+                const Double_ray ray = sightline::in_doubles(drawn);
+                if (!is_ray(ray)) continue;
                 const Ray_start start = starts[random.below(2)];
                 const std::vector<Face_hit> exact = tracer.first(ray.exact(), start, counters);
                 const Ray_tracer::Nearest near = tracer.nearest(ray, start, counters);

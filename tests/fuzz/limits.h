@@ -114,14 +114,8 @@ inline void try_far_rays(generate::Random& random) {
     const std::vector<Face_hit> all = harness::hits_by_definition(soup, scene, ray, start);
     require(tracer.all(ray, start, counters) == all, "a ray meets what it does by the definition");
     require(tracer.first(ray, start, counters) == only_first(all), "a ray meets first what it does by the definition");
-    Double_ray doubles{};
-    bool is_finite = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      doubles.origin[k] = nearest_double(ray.origin[k]);
-      doubles.direction[k] = nearest_double(ray.direction[k]);
-      is_finite = is_finite && std::isfinite(doubles.origin[k]) && std::isfinite(doubles.direction[k]);
-    }
-    if (!is_finite || doubles.direction == std::array<double, 3>{}) continue;
+    const Double_ray doubles = in_doubles(ray);
+    if (!is_ray(doubles)) continue;
     const std::vector<Face_hit> hits = only_first(harness::hits_by_definition(soup, scene, doubles.exact(), start));
     const Ray_tracer::Nearest near = tracer.nearest(doubles, start, counters);
     require((near.face == Ray_tracer::Nearest::nothing) == hits.empty(), "doubles meet something iff it is there");

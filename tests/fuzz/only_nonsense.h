@@ -116,10 +116,7 @@ inline void refuse_nonsense_of_solids(const Posed_scene& scene, Mutator& random)
   std::size_t faces = 0;
   for (const Polygon_soup& solid : solids) faces += solid.face_count();
   if (faces == 0 || faces > most_faces) return;
-  Set_options options;
-  options.operation = set_operations[random.below(4)];
-  options.inside = inside_rules[random.below(3)];
-  options.keep_fragments = true;
+  const Set_options options = harness::drawn_operation(random);
   const Operands operands(solids);
   const Solid_certificate right = solid_certificate(operands, options, set_operation(operands, options));
   if (const Verdict verdict = verdict_on(solids, right); !verdict.accepted)

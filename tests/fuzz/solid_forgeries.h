@@ -206,10 +206,7 @@ inline Tallies judged_solid_forgeries(const Posed_scene& scene, Mutator& random)
     pretence = "solids exchanged";
     std::swap(others.front(), others.back());
   }
-  Set_options options;
-  options.operation = set_operations[random.below(4)];
-  options.inside = inside_rules[random.below(3)];
-  options.keep_fragments = true;
+  const Set_options options = harness::drawn_operation(random);
   const Operands operands(others);
   const Solid_certificate shown = solid_certificate(operands, options, set_operation(operands, options));
 
