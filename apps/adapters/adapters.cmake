@@ -35,6 +35,9 @@ foreach(source IN LISTS sources)
     target_link_libraries(adapter_${name} PRIVATE ${asked})
   endif()
   target_compile_options(adapter_${name} PRIVATE ${rough})
+  if(SIGHTLINE_PCH AND SIGHTLINE_ROUGH)  # then they have the program's options
+    target_precompile_headers(adapter_${name} REUSE_FROM sightline)
+  endif()
   add_dependencies(adapters adapter_${name})
 endforeach()
 

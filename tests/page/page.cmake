@@ -22,6 +22,6 @@ if(missing)
   set_tests_properties(page.in_a_browser PROPERTIES SKIP_REGULAR_EXPRESSION "skipped:")
 else()
   add_test(NAME page.in_a_browser COMMAND "${page_python}" -m pytest -q -p no:cacheprovider -rs "${CMAKE_CURRENT_LIST_DIR}")
-  set_tests_properties(page.in_a_browser PROPERTIES TIMEOUT 600 COST 20 ENVIRONMENT
+  set_tests_properties(page.in_a_browser PROPERTIES TIMEOUT 600 COST 200 ENVIRONMENT
     "SIGHTLINE_PROGRAM=$<TARGET_FILE:sightline>;SIGHTLINE_CHROMIUM=${SIGHTLINE_CHROMIUM};SIGHTLINE_CHROMEDRIVER=${SIGHTLINE_CHROMEDRIVER};PYTHONDONTWRITEBYTECODE=1")
 endif()

@@ -39,7 +39,7 @@ TEST_F(Levels, tables_that_announce_many_faces_are_merged_in_little_memory) {
   const auto store = [&](std::uint32_t number) {
     for (int k = 0; k < 4; ++k, number >>= 8) bytes += static_cast<char>(number & 255);
   };
-  constexpr std::uint32_t runs = 49'000;
+  const std::uint32_t runs = sanitized ? 490 : 49'000;
   store(0);
   store(0);
   store(runs * 255 * 8);
@@ -47,7 +47,8 @@ TEST_F(Levels, tables_that_announce_many_faces_are_merged_in_little_memory) {
   const std::string part = file("part.pvs", bytes);
   const Outcome r = run({"merge", part, part, "--out", out("t.pvs")}, {60, 300});
   EXPECT_EQ(r.code, bad_input) << r;
-  EXPECT_NE(r.err.find("face 0 and 99959999 more are in no part"), std::string::npos) << r;
+  EXPECT_NE(r.err.find("face 0 and " + std::to_string(runs * 255 * 8 - 1) + " more are in no part"), std::string::npos)
+      << r;
 }
 
 TEST_F(Levels, cells_are_counted_and_written) {
