@@ -96,8 +96,13 @@ std::string write_failing(const Fuzz_arguments& arguments, const generate::Posed
                      stem + ".json", check);
 }
 
+/// What a replay says of --check.
+std::string only_check(const Fuzz_arguments& arguments) {
+  return arguments.check.empty() ? "" : fmt::format(" --check '{}'", arguments.check);
+}
+
 std::string replay_of(const Fuzz_arguments& arguments, const harness::Fuzz_case& which) {
-  return fmt::format("sightline fuzz {} --case {}", arguments.command, to_string(which));
+  return fmt::format("sightline fuzz {} --case {}{}", arguments.command, to_string(which), only_check(arguments));
 }
 
 /// One scene, be it of a case or of a file: all checks, or the named one.
@@ -141,6 +146,7 @@ class Kept_fuzzing {
         head_(resumed_head("fuzz", {{"COMMAND", arguments.command},
                                     {"--seed", arguments.seed},
                                     {"--family", arguments.family},
+                                    {"--check", arguments.check},
                                     {"--max-faces", arguments.most_faces},
                                     {"--shard", fmt::format("{}/{}", own.shard, own.shards)}})) {}
 
@@ -219,6 +225,7 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
   options.shard = own.shard;
   options.shards = own.shards;
   options.family = arguments.family;
+  options.check = arguments.check;
   options.most_faces = arguments.most_faces;
   options.out_of_time = [&] { return time.over() && arguments.scenes == 0; };
   options.begin = [&](const harness::Fuzz_case& which) {
@@ -310,7 +317,6 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
   if (arguments.scene.empty() && !arguments.format.name.empty())
     throw Usage_error("--format is of a --scene from standard input: leave it out");
   watch_for_crashes();
-  const std::string checks = arguments.check.empty() ? "" : fmt::format(" --check '{}'", arguments.check);
   if (!arguments.scene.empty()) {
     Polygon_soup soup = arguments.format.read(arguments.scene);
     harness::Posed_query query;
@@ -319,7 +325,7 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
     scene.soup = std::move(soup);
     if (subject.wants_source) check_source(scene, "'" + subject.name + "' wants a --query with a source polygon");
     begin_case(fmt::format("sightline fuzz {} --scene {}{}{}", arguments.command, arguments.scene,
-                           arguments.query.empty() ? "" : " --query " + arguments.query, checks),
+                           arguments.query.empty() ? "" : " --query " + arguments.query, only_check(arguments)),
                arguments.case_seconds);
     return run_one(subject, scene, query.seed, arguments.scene, arguments.check);
   }
@@ -335,7 +341,7 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
     if (subject.wants_source && scene.source.empty())
       throw Usage_error(
           fmt::format("--case: '{}' wants a source polygon, and '{}' has none", subject.name, which.family));
-    begin_case(replay_of(arguments, which) + checks, arguments.case_seconds);
+    begin_case(replay_of(arguments, which), arguments.case_seconds);
     return run_one(subject, scene, which.parameters.seed, "case " + to_string(which), arguments.check);
   }
   return run_many(arguments, subject);
@@ -387,7 +393,7 @@ void add_fuzz(Command program) {
   a->format.add_to(command);
   command.add_option("--query", a->query, "with --scene: the eye and the source, as `generate --query` writes them")
       .reads_file();
-  command.add_option("--check", a->check, "with --case or --scene: this check only");
+  command.add_option("--check", a->check, "only this check, beside 'certificate'");
   command.add_option("--out", a->out, "the folder for the smallest failing scene").check(not_empty()).show_default();
   command.add_option("--json", a->json, "write the summary as JSON to this file, - for standard output").writes_file();
   command.footer(

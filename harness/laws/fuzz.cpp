@@ -130,7 +130,7 @@ std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& options,
       summary.cases += outcome.state != Outcome::State::not_applicable;
       summary.undecided += outcome.state == Outcome::State::undecided;
     };
-    if (auto found = first_disagreement(subject, scene, which.parameters.seed, {}, tell))
+    if (auto found = first_disagreement(subject, scene, which.parameters.seed, options.check, tell))
       return Finding{which, *found, scene};
   }
   return std::nullopt;

@@ -93,6 +93,7 @@ struct Fuzz_options {
   /// Of the scenes drawn those whose number is `shard` modulo `shards`.
   std::size_t shard = 0, shards = 1;
   std::string family;                           ///< empty: any
+  std::string check;                            ///< empty: all; its random choices are the same either way
   std::size_t most_faces = 40;                  ///< scenes of more faces are passed over
   std::function<bool()> out_of_time;            ///< asked before each scene
   std::function<void(const Fuzz_case&)> begin;  ///< told before each scene

@@ -69,6 +69,7 @@ inline void event_cells(std::string_view bytes) {
   const auto visit = [&](const std::vector<int>& signs, const Event_move& move) {
     said.insert(signs);
     require(signs == signs_of(move, t), "the way into a cell leads there");
+    for (const Rational& x : move.first) require(!at_regulus || abs(x) <= 1, "a move is of size one at most");
     return false;
   };
   if (at_regulus) visit_cells_at_regulus(touching.chart, touched, visit);

@@ -17,8 +17,10 @@
 #include "faces.h"
 #include "fixed_integer.h"
 #include "forged.h"
+#include "light_work.h"
 #include "limits.h"
 #include "mutate.h"
+#include "one_edge.h"
 #include "only_nonsense.h"
 #include "other_readers.h"
 #include "pairs.h"
@@ -89,6 +91,8 @@ inline const std::vector<Target>& targets() {
                                        {"refusals", refusals, {}},
                                        {"single_parts", single_parts, {}},
                                        {"weak_parts", weak_parts, {}},
+                                       {"one_edge", one_edge, {}},
+                                       {"light_work", light_work, {}},
                                        {"limits", limits, {}},
                                        {"certificate_forms", certificate_forms, {}},
                                        {"volumes", volumes, {}},

@@ -34,6 +34,20 @@ TEST_F(Fuzz, one_seed_is_one_sequence_and_seconds_end_it) {
     EXPECT_NE(r.out.find(word), std::string::npos) << word << r;
 }
 
+TEST_F(Fuzz, one_check_alone_is_asked_what_it_is_among_all) {
+  const auto checks = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"fuzz", "see", "--scenes", "6", "--seed", "4", "--json", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, done) << r;
+    return r.json()["counters"]["checks"];
+  };
+  const Json all = checks({}), one = checks({"--check", "lines"});
+  EXPECT_EQ(one.size(), 2u);
+  EXPECT_GT(all.size(), 10u);
+  for (const char* name : {"certificate", "lines"}) EXPECT_EQ(one[name], all[name]) << name;
+}
+
 TEST_F(Fuzz, goes_on_where_it_was_and_does_nothing_again) {
   const std::string json = path("io.json").string(), kept = json + ".done";
   const auto fuzz = [&](const std::vector<std::string>& more) {
@@ -99,6 +113,7 @@ TEST_F(Fuzz, goes_on_where_it_was_and_does_nothing_again) {
   refused({"--seed", "3", "--shard", "0/2"}, "--shard: 1/2, not 0/2");
   refused({"--seed", "3", "--shard", "1/2", "--max-faces", "9"}, "--max-faces: 40, not 9");
   refused({"--seed", "3", "--shard", "1/2", "--family", "bars"}, "--family: nothing, not bars");
+  refused({"--seed", "3", "--shard", "1/2", "--check", "qoff"}, "--check: nothing, not qoff");
   with("sightline", "0.0.9");
   refused(same, "version 0.0.9");
   with("random", "1 2 3");
