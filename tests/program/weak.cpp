@@ -397,7 +397,7 @@ TEST_F(Weak, refuses_volumes_that_are_none) {
 
 TEST_F(Weak, shows_a_bar_of_its_own_while_doubles_are_asked_for_a_page) {
   const std::string soup = path("soup.off").string(), page = path("page.html").string();
-  ASSERT_EQ(run({"generate", "soup", "--size", sanitized ? "400" : "2000", "--out", soup}).code, done);
+  ASSERT_EQ(run({"generate", "soup", "--size", sanitized ? "1500" : "2000", "--out", soup}).code, done);
   std::vector<std::string> words{executable,  "weak", soup,     "--two-sided",
                                  "--threads", "1",    "--from", "-2,-2,-2 3,-2,-2 3,3,-2 -2,3,-2"};
   EXPECT_EQ(on_a_terminal(words).find("doubles"), std::string::npos) << "there is no page";
