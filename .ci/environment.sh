@@ -102,7 +102,7 @@ build() {
   shift 2
   for option; do  # a folder of another compiler is begun anew
     if [[ $option == -DCMAKE_CXX_COMPILER=* ]] && [ -e "$folder/CMakeCache.txt" ] &&
-       ! grep -qxF "CMAKE_CXX_COMPILER:STRING=${option#*=}" "$folder/CMakeCache.txt"; then
+       [ "$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$folder/CMakeCache.txt")" != "${option#*=}" ]; then
       rm -rf "$folder"
     fi
   done
