@@ -98,11 +98,8 @@ inline void try_at_once(Random& random) {
   Events_options by_events;
   by_events.threads = 1;
   const Weakly_visible_by_events events = weakly_visible_by_events(occluders, sources, by_events);
-  const auto has_target = [](const std::vector<Face_id>& list) {
-    return std::find(list.begin(), list.end(), 0) != list.end();
-  };
-  require(has_target(hidden ? found.hidden : found.visible), "what a plate hides, and nothing else, is hidden");
-  require(has_target(hidden ? events.hidden : events.visible), "events say so of a plate, too");
+  require(said_of_target(found) == !hidden, "what a plate hides, and nothing else, is hidden");
+  require(said_of_target(events) == !hidden, "events say so of a plate, too");
   require(found.counters.cells == 0, "no cells are searched of what one plate hides, or nothing");
   require(events.counters.horizon + events.counters.edge_vertex + events.counters.triple == 0,
           "no events are looked at of what one plate hides, or nothing");

@@ -28,6 +28,7 @@ namespace program {
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <thread>
@@ -146,8 +147,7 @@ class Program : public testing::Test {
       if (!std::string_view(*variable).starts_with("ASAN_OPTIONS=")) variables.push_back(*variable);
     std::string asan = "ASAN_OPTIONS=";
     if (const char* options = std::getenv("ASAN_OPTIONS")) asan += options;
-    if (has_run_) asan += ":detect_leaks=0";
-    has_run_ = true;
+    if (!commands_run_.insert(arguments.empty() ? "" : arguments[0]).second) asan += ":detect_leaks=0";
     if (sanitized) variables.push_back(asan.data());
     variables.push_back(nullptr);
     const int failed = posix_spawn(&child, words[0].c_str(), &actions, nullptr, argv.data(), variables.data());
@@ -190,9 +190,8 @@ class Program : public testing::Test {
 
  private:
   fs::path folder_;
-  /// Memory that is lost is looked for in a test's first run of the program: that takes a third of what a short run
-  /// takes.
-  mutable bool has_run_ = false;
+  /// Memory that is lost is looked for in a test's first run of each command: that takes a third of a short run.
+  mutable std::set<std::string> commands_run_;
 };
 
 /// The files of a folder of the corpus that are scenes, sorted.
