@@ -2,6 +2,8 @@
 
 #include <boost/graph/strong_components.hpp>
 
+#include <algorithm>
+
 namespace sightline {
 
 Priority_components components(const Arc_graph& graph) {

@@ -7,7 +7,6 @@
 
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -34,17 +33,24 @@ class Explicit_priority_graph {
   template <class Relation>
   explicit Explicit_priority_graph(const Relation& relation,
                                    const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> arcs;
+    // 1. By the face that they begin at, in order: those to earlier faces come with these, those to later ones after.
     const std::uint32_t n = relation.size();
+    std::vector<std::vector<std::uint32_t>> to(n);
+    std::size_t count = 0;
     for (std::uint32_t i = 0; i < n; ++i) {
       for (std::uint32_t j = i + 1; j < n; ++j) {
         if (progress && (j - i) % 256 == 1) progress(i, n);
         const Arcs both = relation.arcs(i, j, counters_);
-        if (both.forth) arcs.emplace_back(i, j);
-        if (both.back) arcs.emplace_back(j, i);
+        if (both.forth) to[i].push_back(j);
+        if (both.back) to[j].push_back(i);
       }
+      count += to[i].size();
     }
-    std::sort(arcs.begin(), arcs.end());
+    // 2. One after the other.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> arcs;
+    arcs.reserve(count);
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (const std::uint32_t j : std::exchange(to[i], {})) arcs.emplace_back(i, j);
     graph_ = Arc_graph(boost::edges_are_sorted, arcs.begin(), arcs.end(), n);
   }
 
