@@ -263,16 +263,21 @@ class Cell_pvs_search::Maker {
     return sum;
   }
 
-  /// A sightline from r to s, both in portals, made longer by as much as leaves its ends in the cells.
+  /// A sightline from r to s, both inside portals, made longer so that its ends are inside the cells: where it may
+  /// reach a wall, half as far.
   std::array<Exact_point, 2> into_cells(Cell_id from, Cell_id to, const Exact_point& r, const Exact_point& s,
                                         const Exact_point& way) const {
-    for (Rational part(1, 2);; part /= 4) {
+    const auto longer_by = [&](const Rational& part) {
       std::array<Exact_point, 2> ends{r, s};
       for (std::size_t k = 0; k < 3; ++k) {
         ends[0][k] -= part * way[k];
         ends[1][k] += part * way[k];
       }
-      if (level_.at(ends[0]) == from && level_.at(ends[1]) == to) return ends;
+      return ends;
+    };
+    for (Rational part(1, 2);; part /= 4) {
+      const std::array<Exact_point, 2> ends = longer_by(part);
+      if (level_.at(ends[0]) == from && level_.at(ends[1]) == to) return longer_by(part / 2);
     }
   }
 

@@ -115,10 +115,32 @@ std::string flaw_of_leaves(const Level_cells& level, const Cell_pvs& pvs) {
   return {};
 }
 
+/// That counters say what the table has.
+std::string flaw_of_counters(const Cell_pvs& pvs) {
+  const Cell_pvs_counters& c = pvs.counters;
+  const auto cells = static_cast<std::size_t>(std::count(pvs.is_asked.begin(), pvs.is_asked.end(), 1));
+  const auto pairs_in = [](const std::vector<std::vector<Cell_id>>& lists) {
+    std::size_t both_ways = 0;
+    for (const std::vector<Cell_id>& list : lists) both_ways += list.size();
+    return both_ways / 2;
+  };
+  if (c.cells != cells || c.pairs != cells * (cells - 1) / 2) return "cells or pairs are miscounted";
+  if (c.visible != pairs_in(pvs.visible) || c.undecided != pairs_in(pvs.undecided))
+    return "pairs that see each other, or may, are miscounted";
+  if (c.unreached > c.pairs - c.visible - c.undecided || c.hidden > c.searched)
+    return "more is unreached or hidden than there is";
+  // Floods at one time may see each other's cells.
+  const std::size_t most = 2 * c.visible;
+  if (c.adjacent > most || c.by_lines > most || c.extended > most || c.adjacent + c.by_lines + c.extended > most)
+    return "more is seen than there is";
+  return {};
+}
+
 Outcome pairs(const Posed_scene& posed, const Answer&, Random& random) {
   const Level_cells level(posed.soup);
   Cell_pvs_search search(level, options_of(random));
   const Cell_pvs pvs = search.ask(0, 1);
+  if (const std::string flaw = flaw_of_counters(pvs); !flaw.empty()) return Outcome::failed(flaw);
   if (const std::string flaw = flaw_of_leaves(level, pvs); !flaw.empty()) return Outcome::failed(flaw);
   if (const Cell_id any = static_cast<Cell_id>(random.below(level.cells().size())); search.sightline(any, any))
     return Outcome::failed("a cell has a sightline to itself");

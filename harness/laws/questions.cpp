@@ -448,8 +448,9 @@ std::vector<Question> questions_of_weak() {
   return {{"what may be visible", possibly, true, true}, {"what is weakly visible", weakly, false, true}};
 }
 std::vector<Question> questions_of_pvs() {
-  return {
-      {"cells", cells, true, true}, {"faces by cell", faces_by_cell, false, true}, {"cells by cell", cells_by_cell}};
+  return {{"cells", cells, true, true},
+          {"faces by cell", faces_by_cell, false, true},
+          {"cells by cell", cells_by_cell, false, true}};
 }
 std::vector<Question> questions_of_shadow() {
   return {{"what is lit", parts, true, true}, {"the shadow volume", volume}};

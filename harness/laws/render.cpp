@@ -28,6 +28,7 @@
 #include <sightline/harness/laws/images.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/met_pieces.h>
 #include <sightline/harness/laws/questions.h>
 #include <sightline/harness/laws/window_laws.h>
 #include <sightline/kernel/scene/scene.h>
@@ -413,6 +414,7 @@ Subject render() {
   subject.checks.push_back(check_of("squares_layers", "so it is where faces let light through", in_squares<true>));
   subject.checks.push_back(depth_check());
   subject.checks.push_back(manners_check(questions_of_render()));
+  subject.checks.push_back(definition_check());
   return subject;
 }
 

@@ -17,6 +17,7 @@
 #include "faces.h"
 #include "fixed_integer.h"
 #include "forged.h"
+#include "grid.h"
 #include "light_work.h"
 #include "limits.h"
 #include "mutate.h"
@@ -74,6 +75,7 @@ inline const std::vector<Target>& targets() {
                                        {"only_nonsense", only_nonsense, {}},
                                        {"fixed_integer", fixed_integer, {}},
                                        {"side", side, {}},
+                                       {"grid", grid, {}},
                                        {"quadratic_roots", quadratic_roots, {}},
                                        {"active_subranges", active_subranges, {}},
                                        {"event_cells", event_cells, {}},

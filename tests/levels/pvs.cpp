@@ -105,6 +105,11 @@ TEST(Pvs, that_a_search_does_not_decide_is_decided_by_events) {
   EXPECT_EQ(cells.visible, mutually_visible_cells(level).visible);
 }
 
+TEST(Cell_pvs, has_sightlines_that_end_before_walls_which_a_step_reaches) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed)
+    expect_passed("pairs", corpus_scene("robust/sightline_onto_wall.qoff"), seed);
+}
+
 TEST(Cell_pvs, out_of_time_is_undecided) {
   const Level_cells level(corpus_scene("general/two_rooms.map"));
   Pvs_options options;
