@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,10 +60,29 @@ View_region any_region(const Posed_scene& posed, const std::vector<Flat_face>& f
   return region;
 }
 
+/// That a box has its corners, each once, and none where it is empty.
+std::string flaw_of_box(const Exact_point& low, const Exact_point& high) {
+  std::set<Exact_point> expected;
+  for (const Rational& x : {low[0], high[0]})
+    for (const Rational& y : {low[1], high[1]})
+      for (const Rational& z : {low[2], high[2]}) expected.insert({x, y, z});
+  for (std::size_t k = 0; k < 3; ++k)
+    if (low[k] > high[k]) expected.clear();
+  const std::vector<Exact_point> corners = View_region::box(low, high).points;
+  return corners.size() == expected.size() && std::set<Exact_point>(corners.begin(), corners.end()) == expected
+             ? ""
+             : "a box of viewpoints has other corners";
+}
+
 Outcome check_region(const Posed_scene& posed, Random& random) {
   constexpr std::size_t pairs = 6, eyes = 3;
   const Asked_scene asked(posed);
   if (asked.faces.size() < 2) return Outcome::not_applicable();
+  Exact_point low = any_point(posed, asked.faces, random), high = any_point(posed, asked.faces, random);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (random.chance(1, 6)) high[k] = low[k];
+    else if (low[k] > high[k] && !random.chance(1, 8)) std::swap(low[k], high[k]);
+  if (const std::string flaw = flaw_of_box(low, high); !flaw.empty()) return Outcome::failed(flaw);
   const View_region region = any_region(posed, asked.faces, random);
   const Region_relation<Exact_traits> relation(asked.relation, region);
   for (std::uint32_t i = 0; i < asked.faces.size(); ++i) {

@@ -271,7 +271,9 @@ Segments within(const std::vector<Drawn_crossing>& drawn, const std::vector<Leve
 }
 
 Outcome check_field(const Posed_scene& posed, Random& random) {
-  const std::vector<Exact_point> rays = any_field(posed, random);
+  std::vector<Exact_point> rays = any_field(posed, random);
+  if (random.chance(1, 16)) std::reverse(rays.begin(), rays.end());
+  const bool spans = dot(cross(rays[0], rays[1]), rays[2]) > 0;  // of a pyramid, too
   std::vector<Level> field;
   try {
     for (const std::array<Integer, 3>& n : field_of(rays)) {
@@ -279,8 +281,9 @@ Outcome check_field(const Posed_scene& posed, Random& random) {
       field.push_back({normal, dot(normal, posed.eye)});
     }
   } catch (const std::invalid_argument&) {
-    return Outcome::not_applicable();  // the three points span no cone
+    return spans ? Outcome::failed("a field whose rays go around its inside is refused") : Outcome::not_applicable();
   }
+  if (!spans) return Outcome::failed("a field whose rays do not go around its inside is taken for one");
   const Looked whole(posed), part(posed, rays);
   const std::vector<Drawn_edge> all = whole.edges(), some = part.edges();
   for (std::size_t k = 0; k < all.size(); ++k) {

@@ -188,6 +188,9 @@ inline void try_views(Bytes& from) {
     return set;
   };
   std::map<std::uint32_t, bool> open;  // by set
+  std::vector<std::array<Rational, 4>> worse = planes;
+  worse.insert(worse.begin() + static_cast<std::ptrdiff_t>(from.below(worse.size() + 1)), {0, 0, 0, 1});
+  require(is_refused<std::invalid_argument>([&] { view_cells(worse); }), "a plane without a normal is refused");
   const std::vector<View_cell> cells = view_cells(planes);
   const bool with_inside = from.below(2) == 0;
   std::size_t listed = 0;

@@ -39,6 +39,7 @@
 #include "volumes.h"
 #include "weak_claims.h"
 #include "weak_parts.h"
+#include "written.h"
 
 #include <filesystem>
 #include <fstream>
@@ -105,6 +106,7 @@ inline const std::vector<Target>& targets() {
                                        {"bsp_queries", bsp_queries, {}},
                                        {"text_numbers", text_numbers, {}},
                                        {"cover", cover, {}},
+                                       {"written", written, {}},
                                        {"pictures", pictures, {}},
                                        {"drawings", drawings, {}}};
   return all;
