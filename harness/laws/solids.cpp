@@ -7,6 +7,7 @@
 #include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/tangles.h>
 #include <sightline/harness/generate/transform.h>
+#include <sightline/harness/laws/apart_solids.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/judge_laws.h>
 #include <sightline/harness/laws/laws.h>
@@ -352,6 +353,7 @@ Subject boolean() {
       [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_told_result(solids, random); }));
   subject.checks.push_back(manners_check(questions_of_boolean()));
   subject.checks.push_back(open_solids_check());
+  subject.checks.push_back(apart_solids_check());
   return subject;
 }
 

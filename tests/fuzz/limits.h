@@ -75,11 +75,18 @@ inline void try_far_rays(generate::Random& random) {
     else mpq_div_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-e));
     return x;
   };
-  const Rational size = power();
+  Rational size = power(), wide = 1;
+  if (random.chance(1, 6)) {  // to where doubles end, and a triangle beyond that
+    size = static_cast<long>(random.between(1, 7));
+    mpq_mul_2exp(size.get_mpq_t(), size.get_mpq_t(), static_cast<mp_bitcnt_t>(random.between(1010, 1019)));
+    mpq_mul_2exp(wide.get_mpq_t(), wide.get_mpq_t(), static_cast<mp_bitcnt_t>(random.between(30, 54)));
+  }
   Polygon_soup soup;
   for (std::size_t k = 0; k < 9; ++k) {
     Exact_point p;
     for (Rational& x : p) x = size * Rational(random.between(-8, 8));
+    if (k > 5)
+      for (Rational& x : p) x *= wide;
     soup.add_point(p[0], p[1], p[2]);
   }
   soup.add_face({0, 1, 2});

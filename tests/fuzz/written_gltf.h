@@ -165,6 +165,11 @@ struct Written_gltf {
         {{"byteLength", bytes.size()}, {"uri", "data:application/octet-stream;base64," + in_base_64(bytes)}}};
     return json.dump();
   }
+  /// With its bytes in a file beside it, whose name has letters that a URI writes by their numbers.
+  std::string as_text_beside() {
+    json["buffers"] = {{{"byteLength", bytes.size()}, {"uri", "in%20a%20bag/is%3a%2Bfed.bin"}}};
+    return json.dump();
+  }
   std::string as_binary() {
     json["buffers"] = {{{"byteLength", bytes.size()}}};
     std::string text = json.dump();
@@ -312,10 +317,15 @@ inline void try_gltf(generate::Random& random) {
   for (const std::size_t n : roots) show(show, n, {});
 
   std::vector<Face_points> found;
-  const bool is_binary = random.chance(1, 2);
-  const std::string bytes = is_binary ? file.as_binary() : file.as_text();
+  const std::size_t form = random.below(3);
+  const std::string bytes = form == 0 ? file.as_binary() : form == 1 ? file.as_text() : file.as_text_beside();
+  const Gltf_neighbour neighbour = [&](const std::string& path) {
+    require(path == "in a bag/is:+fed.bin", "a file beside it is asked for by its name");
+    return file.bytes;
+  };
   const bool refused = is_refused<Input_error>([&] {
-    found = shown_faces(is_binary ? sightline::read_glb({"written", bytes}) : sightline::read_gltf({"written", bytes}));
+    const Input input{"written", bytes};
+    found = shown_faces(form == 0 ? sightline::read_glb(input) : sightline::read_gltf(input, {}, neighbour));
   });
   require(refused == is_broken, "a file is refused iff a matrix is no map of points");
   require(refused || found == expected, "a file has the triangles that were written");

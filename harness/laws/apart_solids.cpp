@@ -1,0 +1,119 @@
+#include <sightline/harness/laws/apart_solids.h>
+
+#include <sightline/algorithms/solids/operands.h>
+#include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/solids.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sightline::harness {
+
+namespace {
+
+using generate::Points;
+using Whole_face = std::vector<Points>;  // its loops, each from its least corner, holes in order
+
+/// A star around a point, counterclockwise, without straight corners: its corners are in directions around the half
+/// circle by the tangent of half an angle, less than a half turn apart.
+Points any_star(Random& random, const Exact_point& centre) {
+  static constexpr std::array<std::pair<long, long>, 12> directions{
+      {{4, 0}, {4, 1}, {3, 3}, {1, 4}, {0, 4}, {-2, 4}, {-3, 2}, {-4, 0}, {-3, -3}, {-1, -4}, {1, -3}, {3, -2}}};
+  Points star;
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    if (k % 3 != 0 && random.chance(1, 2)) continue;  // one in each quarter stays
+    const Rational far = generate::ratio(random.between(2, 9), 8);
+    star.push_back({centre[0] + far * directions[k].first, centre[1] + far * directions[k].second, centre[2]});
+  }
+  const auto is_straight = [&](std::size_t k) {
+    const Exact_point &a = star[(k + star.size() - 1) % star.size()], &b = star[k], &c = star[(k + 1) % star.size()];
+    return is_zero(cross(minus(b, a), minus(c, b)));
+  };
+  for (std::size_t k = 0; k < star.size(); ++k) {
+    if (!is_straight(k)) continue;
+    star.erase(star.begin() + static_cast<std::ptrdiff_t>(k));
+    k = ~std::size_t{0};  // from the first again
+  }
+  return star;
+}
+
+Polygon_soup prism_on(Points base, long height) {
+  std::reverse(base.begin(), base.end());  // as seen from below
+  Polygon_soup soup;
+  generate::add_prism(soup, base, {0, 0, height});
+  return soup;
+}
+
+std::multiset<Whole_face> faces_in(const Polygon_soup& soup) {
+  std::multiset<Whole_face> faces;
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    Whole_face face;
+    for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
+      Points& loop = face.emplace_back();
+      for (const Point_id p : soup.loop(f, k)) loop.push_back(soup.point(p));
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+    }
+    std::sort(face.begin() + 1, face.end());
+    faces.insert(std::move(face));
+  }
+  return faces;
+}
+
+Set_result result_of(const std::vector<Polygon_soup>& solids, Set_operation operation) {
+  Set_options options;
+  options.operation = operation;
+  return set_operation(Operands(solids), options);
+}
+
+/// Apart, and one in a hollow of the other's outline where that has one.
+std::string flaw_apart(Random& random) {
+  const Polygon_soup one = prism_on(any_star(random, {0, 0, 0}), 2);
+  const Polygon_soup other = prism_on(any_star(random, {20, static_cast<long>(random.between(-9, 9)), 0}), 3);
+  std::multiset<Whole_face> all = faces_in(one);
+  all.merge(faces_in(other));
+  const bool is_union = random.chance(1, 2);
+  const Set_result result = result_of({one, other}, is_union ? Set_operation::unite : Set_operation::differ);
+  return faces_in(result.soup) == all ? "" : "solids apart do not keep their faces";
+}
+
+std::string flaw_through(Random& random) {
+  const Points star = any_star(random, {0, 0, 0});
+  Points lower = star, square{{-6, -6, 0}, {6, -6, 0}, {6, 6, 0}, {-6, 6, 0}};
+  for (Exact_point& p : lower) p[2] = -1;
+  const Set_result result = result_of({prism_on(square, 1), prism_on(lower, 3)}, Set_operation::subtract);
+  // 1. Faces: four sides, the walls of the hole, and two with a hole.
+  const Polygon_soup& soup = result.soup;
+  std::size_t with_hole = 0, walls = 0;
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const bool has_hole = soup.loop_count(f) == 2 && soup.loop(f).size() == 4 && soup.loop(f, 1).size() == star.size();
+    with_hole += has_hole;
+    walls += soup.loop_count(f) == 1 && soup.loop(f).size() == 4;
+  }
+  if (with_hole != 2 || walls != 4 + star.size() || soup.face_count() != with_hole + walls)
+    return "a block with a hole through it has other faces than walls and two with a hole";
+  // 2. Cut, these are less than their triangles: of a face of k corners and a hole there are k.
+  const std::size_t parts = without_holes(soup).soup.face_count() - walls;
+  return parts < 2 * (4 + star.size()) ? "" : "faces with holes are cut into all their triangles";
+}
+
+}  // namespace
+
+Check apart_solids_check() {
+  return {"apart", "stars apart keep their faces, and one through a block leaves walls and two faces with a hole",
+          [](const Posed_scene&, const Answer&, Random& random) {
+            if (!random.chance(1, 4)) return Outcome::not_applicable();
+            const std::string flaw = random.chance(1, 2) ? flaw_apart(random) : flaw_through(random);
+            return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
+          }};
+}
+
+}  // namespace sightline::harness
