@@ -1,7 +1,8 @@
 #pragma once
-// Files written for what is in them, and read: glTF (written_gltf.h), brushes of Quake's levels, lists of numbers,
-// materials; and endings of names.
+// Files written for what is in them, and read: glTF (written_gltf.h), Quake's levels (written_bsp.h) and their brushes,
+// lists of numbers, materials; and endings of names.
 
+#include "written_bsp.h"
 #include "written_gltf.h"
 
 #include <sightline/io/format.h>
@@ -262,7 +263,8 @@ inline void written(std::string_view bytes) {
   Bytes from(bytes);
   const std::size_t kind = from.below(16);
   generate::Random random(from.word());
-  if (kind < 7) try_gltf(random);
+  if (kind < 5) try_gltf(random);
+  else if (kind < 9) try_level(random);
   else if (kind < 13) try_brushes(random);
   else if (kind == 13) try_numbers(random);
   else if (kind == 14) try_materials(random);
