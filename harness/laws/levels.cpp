@@ -19,7 +19,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -199,6 +201,26 @@ Outcome in_boxes(const Level_cells& level, const std::array<Exact_point, 2>& box
   return {};
 }
 
+/// That counters say what there is.
+std::string flaw_of_counters(const Level_cells& level) {
+  Cell_counters found;
+  std::set<std::uint32_t> regions;
+  for (const Level_cell& cell : level.cells()) {
+    regions.insert(cell.region);
+    if (cell.is_solid) ++found.solid;
+    if (cell.is_outside) ++found.outside;
+  }
+  for (const Cell_wall& wall : level.walls()) {
+    if (!wall.open.empty() && !level.cells()[wall.front].is_solid) ++found.portals;
+    if (wall.open.empty() && wall.behind != no_cell) ++found.covered;
+  }
+  const Cell_counters& said = level.counters();
+  const bool right = said.cells == level.cells().size() && said.walls == level.walls().size() &&
+                     said.solid == found.solid && said.outside == found.outside && said.portals == found.portals &&
+                     said.covered == found.covered && said.regions == regions.size();
+  return right ? "" : "cells, walls or regions are miscounted";
+}
+
 Outcome of_cells(const Posed_scene& posed, const Answer&, Random& random) {
   Cell_options options;
   std::array<std::uint32_t, 3> boxes{};  // of a grid
@@ -214,6 +236,7 @@ Outcome of_cells(const Posed_scene& posed, const Answer&, Random& random) {
     if (const Outcome outcome = in_boxes(level, box_of_corners(posed.soup), boxes);
         outcome.state != Outcome::State::passed)
       return outcome;
+  if (const std::string flaw = flaw_of_counters(level); !flaw.empty()) return Outcome::failed(flaw);
   const std::vector<Flat_face> flats = flat_faces_of(level.scene());
   if (const Outcome outcome = fill(level); outcome.state != Outcome::State::passed) return outcome;
   if (const Outcome outcome = leaves(level, options.tree); outcome.state != Outcome::State::passed) return outcome;
@@ -253,10 +276,38 @@ Outcome of_boxes(const Posed_scene&, const Answer&, Random& random) {
   return windings(level, flats, random);
 }
 
+/// That lists name each face once, and counters say what they have.
+std::string flaw_of_counters(const Level_cells& level, const Pvs& pvs) {
+  std::set<Face_id> looking_in;
+  std::size_t asked = 0, within = 0, visible = 0, undecided = 0;
+  for (Cell_id c = 0; c < level.cells().size(); ++c) {
+    for (const auto* list : {&pvs.visible[c], &pvs.undecided[c]})
+      if (std::adjacent_find(list->begin(), list->end(), std::greater_equal<>()) != list->end())
+        return "faces of a cell are not ascending";
+    visible += pvs.visible[c].size();
+    undecided += pvs.undecided[c].size();
+    if (pvs.is_asked[c] == 0) continue;
+    const std::set<Face_id> own(level.cells()[c].faces.begin(), level.cells()[c].faces.end());
+    ++asked;
+    within += own.size();
+    looking_in.insert(own.begin(), own.end());
+  }
+  const Pvs_counters& c = pvs.counters;
+  if (c.cells != asked || c.faces != looking_in.size() || c.pairs != asked * looking_in.size())
+    return "cells, faces or pairs are miscounted";
+  if (c.visible != visible || c.undecided != undecided || c.within != within)
+    return "pairs that see each other, or may, are miscounted";
+  // A pair is seen by a longer sightline once at most, and where it may see, once more.
+  if (c.extended > visible || c.hidden > c.searched || c.unreached > c.pairs - visible - undecided)
+    return "more is extended, hidden or unreached than there is";
+  return {};
+}
+
 /// What random rays from inside cells meet first is visible from there.
 Outcome sightlines(const Posed_scene& posed, const Answer&, Random& random) {
   const Level_cells level(posed.soup);
   const Pvs pvs = potentially_visible(level, options_of(random));
+  if (const std::string flaw = flaw_of_counters(level, pvs); !flaw.empty()) return Outcome::failed(flaw);
   const std::vector<Flat_face> flats = flat_faces_of(level.scene());
   for (std::size_t k = 0; k < 60; ++k) {
     const Cell_id c = static_cast<Cell_id>(random.below(level.cells().size()));

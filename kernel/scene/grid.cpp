@@ -83,21 +83,25 @@ Scene_grid::Scene_grid(const Coordinates& coordinates, std::vector<std::uint32_t
     bits_read_ = static_cast<int>(bit_length(integer(e.largest)));
     if (e.unit != 1) divisor = 1;
     std::array<Number, 3> offset;
-    Number reach = 1;
-    for (std::size_t k = 0; k < 3; ++k) {
-      offset[k] = centre_of(e, k, divisor);
-      offset_[k] = integer(offset[k]);
-      for (std::size_t side = 0; side < 2; ++side) {
-        const Number end = ((side == 0 ? e.low[k] : e.high[k]) - offset[k]) / e.unit;
-        box_[side][k] = integer(end);
-        reach = std::max(reach, magnitude(end));
+    const auto centred = [&](const Integer& to_multiples_of) {
+      Number reach = 1;
+      for (std::size_t k = 0; k < 3; ++k) {
+        offset[k] = centre_of(e, k, to_multiples_of);
+        offset_[k] = integer(offset[k]);
+        for (std::size_t side = 0; side < 2; ++side) {
+          const Number end = ((side == 0 ? e.low[k] : e.high[k]) - offset[k]) / e.unit;
+          box_[side][k] = integer(end);
+          reach = std::max(reach, magnitude(end));
+        }
       }
-    }
+      return static_cast<int>(bit_length(integer(reach)));
+    };
 
     // 2. How wide the grid is. Doubles of what is read stay below 2^512, so that no product or sum of theirs overflows:
     // Plane_group has no other guard against what is no number.
-    const int bits = static_cast<int>(bit_length(integer(reach)));
+    int bits = centred(1);
     if (bits <= 53 || bits - static_cast<int>(bit_length(divisor)) >= 512) divisor = 1;
+    if (divisor != 1) bits = centred(divisor);
     points_ = Grid_points(bits, divisor);
 
     // 3. The points, equal ones once.

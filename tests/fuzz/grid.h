@@ -123,9 +123,27 @@ inline void check_located(const Scene& scene, const Exact_point& p, Plane plane)
           "doubles decide what they are certain of");
 }
 
+/// A point by numerators and a denominator is that of their ratios; its denominator is that of lowest terms.
+inline void check_ratios(generate::Random& random) {
+  static constexpr std::array denominators{1, 2, 8, 64, 5, 10, 40, 125, 3, 6, 7, 96, 1000};
+  const std::int64_t denominator = denominators[random.below(denominators.size())];
+  std::array<std::int64_t, 3> numerators;
+  for (std::int64_t& n : numerators) n = random.between(-12, 12) * (random.chance(1, 2) ? 1 : 1 << random.below(8));
+  Polygon_soup soup;
+  soup.add_point(numerators, denominator);
+  Integer common = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational expected = generate::ratio(numerators[k], denominator);
+    require(soup.point(0)[k] == expected, "a ratio is what it says");
+    common = lcm(common, expected.get_den());
+  }
+  require(soup.coordinates.common_denominator() == common, "a ratio is in lowest terms");
+}
+
 inline void grid(std::string_view bytes) {
   Bytes from(bytes);
   generate::Random random(from.word());
+  check_ratios(random);
   Drawn_coordinates drawn(random);
   std::vector<Exact_point> points;
   for (std::size_t k = 3 * (1 + random.below(3)); k > 0; --k)

@@ -96,10 +96,22 @@ inline void side(std::string_view bytes) {
     const auto [p, q, r] = ids;
     const std::optional<Position> meet =
         kernel_test::meeting_point(planes[triple[0]].second, planes[triple[1]].second, planes[triple[2]].second);
+    // The determinant of normals, turned round with planes.
+    const auto& [a, b, c] = std::array{planes[triple[0]].second, planes[triple[1]].second, planes[triple[2]].second};
+    const Integer determinant =
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
     Predicate_counts counts;
-    require((predicates.orientation(planes[triple[0]].first, planes[triple[1]].first, planes[triple[2]].first,
-                                    counts) == CGAL::ZERO) == !meet,
-            "normals are dependent iff planes do not meet in a point");
+    std::array<Plane, 3> asked;
+    int expected = sgn(determinant);
+    for (std::size_t k = 0; k < 3; ++k) {
+      asked[k] = planes[triple[k]].first;
+      if (from.below(2) == 0) continue;
+      asked[k] = asked[k].opposite();
+      expected = -expected;
+    }
+    require(static_cast<int>(predicates.orientation(asked[0], asked[1], asked[2], counts)) == expected,
+            "an orientation is the sign of the determinant of normals");
+    require((expected == 0) == !meet, "normals are dependent iff planes do not meet in a point");
     if (!meet) {
       try {
         predicates.meet(p, q, r);

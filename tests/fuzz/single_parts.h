@@ -14,6 +14,7 @@
 #include <sightline/algorithms/weak_visibility/search/matrix_game.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/kernel/fixed_integer.h>
+#include <sightline/kernel/line_table.h>
 #include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -338,6 +339,51 @@ inline void try_plane_table(Random& random) {
           "a coordinate's plane is found");
 }
 
+// ---- Tables of lines
+
+/// Lines through points of a grid, narrow or wide: one name for each, whatever points and in whatever order, its sense
+/// that of the way, canonical coordinates those of the way.
+inline void try_line_table(Random& random) {
+  const int bits = random.chance(1, 2) ? 20 : 90;
+  Grid_points points(bits);
+  const auto number = [&]() -> Integer {
+    Integer x = static_cast<long>(random.between(-9, 9));
+    if (bits > 62 && random.chance(1, 2)) x = x * Integer("1000000000000000000000") + 1;
+    return x;
+  };
+  std::array<Integer, 3> at, way;
+  for (std::size_t k = 0; k < 3; ++k) {
+    at[k] = number();
+    way[k] = random.chance(1, 3) ? Integer(0) : number();
+  }
+  if (way == std::array<Integer, 3>{}) way[random.below(3)] = 1;
+  std::vector<std::uint32_t> on;  // 0, 1, 3 and 4 ways from there
+  for (const long times : {0, 1, 3, 4}) {
+    std::array<Integer, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = at[k] + times * way[k];
+    on.push_back(points.intern(p));
+  }
+  Line_table table(points);
+  const std::size_t p = random.below(4), q = (p + 1 + random.below(3)) % 4;
+  const sightline::Line one = table.through(on[p], on[q]);
+  require(table.through(on[q], on[p]) == sightline::Line{one.id, !one.flipped},
+          "a line back is the same, turned round");
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j)
+      require(table.through(on[i], on[j]) == sightline::Line{one.id, one.flipped != (p > q)}, "a line has one name");
+  require(table.size() == 1, "one line is one");
+  std::size_t lead = 0;
+  while (way[lead] == 0) ++lead;
+  require(sgn(table.integer(one.id, static_cast<int>(lead))) > 0, "a canonical line's first direction is positive");
+  require(one.flipped == ((sgn(way[lead]) < 0) != (p > q)), "a line runs against the canonical one iff it does");
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+    const auto of = [&](std::size_t place) { return table.integer(one.id, static_cast<int>(place)); };
+    require(of(u) * way[v] == of(v) * way[u], "a line has its direction");
+    require(of(3 + k) == at[u] * of(v) - at[v] * of(u), "a line has its moment");
+  }
+}
+
 // ---- Vertices of a CGAL kernel
 
 /// Sides, meets and places by CGAL's filtered kernel are those of rationals; of numbers that doubles hold, or do not.
@@ -444,7 +490,7 @@ inline void try_hardly_faces(Random& random) {
 
 inline void single_parts(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(7);
+  const std::size_t kind = from.below(8);
   Random random(from.word());
   switch (kind) {
     case 0: return try_ray_boxes(random);
@@ -453,6 +499,7 @@ inline void single_parts(std::string_view bytes) {
     case 3: return try_moments(random);
     case 4: return try_plane_table(random);
     case 5: return try_lazy_points(random);
+    case 6: return try_line_table(random);
     default: return try_hardly_faces(random);
   }
 }

@@ -187,7 +187,13 @@ inline void volumes(std::string_view bytes) {
 
   // 3. What is said of them.
   Volume_division division;
-  const bool refused = is_refused<std::invalid_argument>([&] { division = convex_volumes(soup); });
+  std::size_t told = 0;
+  const auto progress = [&](std::size_t done, std::size_t all) {
+    ++told;
+    require(done <= all, "nobody is told of more than all");
+  };
+  const bool refused = is_refused<std::invalid_argument>([&] { division = convex_volumes(soup, progress); });
+  require(refused || drawn.empty() || told > 0, "who asks is told how far it is");
   require(refused != right, "volumes are refused iff one is open or not convex, or two overlap");
   if (refused) return;
   require(division.volumes == drawn.size(), "each volume is one");
