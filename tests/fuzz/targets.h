@@ -8,6 +8,7 @@
 #include "certificate.h"
 #include "certificate_forms.h"
 #include "conics.h"
+#include "contacts.h"
 #include "cover.h"
 #include "cutset.h"
 #include "decimal.h"
@@ -100,6 +101,7 @@ inline const std::vector<Target>& targets() {
                                        {"certificate_forms", certificate_forms, {}},
                                        {"volumes", volumes, {}},
                                        {"conics", conics, {}},
+                                       {"contacts", contacts, {}},
                                        {"arcs", arcs, {}},
                                        {"planar_parts", planar_parts, {}},
                                        {"cutset", cutset, {}},
