@@ -26,19 +26,19 @@ using Flat_points = std::vector<Exact_point>;
 /// The strict corners of a convex hull in the plane of p, u and v; none where it has no area.
 inline Flat_points any_convex(generate::Random& random, const Exact_point& p, const Exact_point& u,
                               const Exact_point& v) {
-  using Place = std::pair<std::int64_t, std::int64_t>;
-  std::set<Place> places;
+  using Hull_place = std::pair<std::int64_t, std::int64_t>;
+  std::set<Hull_place> places;
   while (places.size() < 3 + random.below(4)) places.insert({random.between(-2, 2), random.between(-2, 2)});
   if (random.chance(1, 2)) places.insert({{0, 0}, {1, 0}});  // so that the segment from p along u is part of it
-  std::vector<Place> hull;
+  std::vector<Hull_place> hull;
   for (const int turn : {1, -1}) {
-    std::vector<Place> in_order(places.begin(), places.end());
+    std::vector<Hull_place> in_order(places.begin(), places.end());
     if (turn < 0) std::reverse(in_order.begin(), in_order.end());
     const std::size_t begin = hull.size();
-    for (const Place& q : in_order) {
+    for (const Hull_place& q : in_order) {
       const auto is_needless = [&] {
         if (hull.size() < begin + 2) return false;
-        const Place &a = hull[hull.size() - 2], &b = hull.back();
+        const Hull_place &a = hull[hull.size() - 2], &b = hull.back();
         return (b.first - a.first) * (q.second - b.second) - (b.second - a.second) * (q.first - b.first) <= 0;
       };
       while (is_needless()) hull.pop_back();
