@@ -158,10 +158,13 @@ inline void grid(std::string_view bytes) {
     const Exact_point& corner = points[3 * piece.face];
     require(h[0] * corner[0] + h[1] * corner[1] + h[2] * corner[2] + h[3] == 0, "a face's plane holds its corners");
     const Exact_point& a = points[random.below(points.size())];
-    Exact_point middle, beside = a;
-    for (std::size_t k = 0; k < 3; ++k) middle[k] = (a[k] + 2 * corner[k]) / 3;
+    Exact_point middle, beside = a, on = corner;  // the last one in the face's plane
+    for (std::size_t k = 0; k < 3; ++k) {
+      middle[k] = (a[k] + 2 * corner[k]) / 3;
+      on[k] += (points[3 * piece.face + 1][k] - corner[k]) / 7 + (points[3 * piece.face + 2][k] - corner[k]) * 5 / 3;
+    }
     beside[random.below(3)] += generate::ratio(1, 1 + static_cast<std::int64_t>(random.below(1000)));
-    for (const Exact_point& p : {a, middle, beside, drawn.point()}) check_located(scene, p, piece.support);
+    for (const Exact_point& p : {a, middle, beside, on, drawn.point()}) check_located(scene, p, piece.support);
   }
 }
 

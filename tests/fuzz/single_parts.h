@@ -372,6 +372,7 @@ inline void try_line_table(Random& random) {
     for (std::size_t j = i + 1; j < 4; ++j)
       require(table.through(on[i], on[j]) == sightline::Line{one.id, one.flipped != (p > q)}, "a line has one name");
   require(table.size() == 1, "one line is one");
+  require(is_refused<std::domain_error>([&] { table.through(on[p], on[p]); }), "a point has no line");
   std::size_t lead = 0;
   while (way[lead] == 0) ++lead;
   require(sgn(table.integer(one.id, static_cast<int>(lead))) > 0, "a canonical line's first direction is positive");
