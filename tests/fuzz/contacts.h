@@ -160,8 +160,9 @@ inline void contacts(std::string_view bytes) {
     for (const Exact_point& q : face) own.push_back(numbers.at(q));
     return own;
   };
+  const Contact expected = contact_by_clipping(a, b);
   const auto check = [&](const Solid_face& one, const Solid_face& other, const char* what) {
-    const Contact expected = contact_by_clipping(a, b), found = contact_of(one, other);
+    const Contact found = contact_of(one, other);
     require((found == Contact::crossed) == (expected == Contact::crossed), what);
     require(found != Contact::little || expected == Contact::little, "what faces share on their borders is told");
   };

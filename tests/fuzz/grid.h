@@ -7,6 +7,7 @@
 
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -64,20 +65,9 @@ struct Drawn_coordinates {
   bool is_mixed_;
 };
 
-/// A box around points by comparing them.
-inline std::array<Exact_point, 2> box_around(const std::vector<Exact_point>& points) {
-  std::array<Exact_point, 2> box{points[0], points[0]};
-  for (const Exact_point& p : points)
-    for (std::size_t k = 0; k < 3; ++k) {
-      box[0][k] = std::min(box[0][k], p[k]);
-      box[1][k] = std::max(box[1][k], p[k]);
-    }
-  return box;
-}
-
 inline void check_points(const Scene& scene, const std::vector<Exact_point>& points) {
   const std::set<Exact_point> apart(points.begin(), points.end());
-  require(scene.box() == box_around(points), "a scene's box is that of its points");
+  require(scene.box() == exact_box(points), "a scene's box is that of its points");
   require(scene.points().size() == apart.size(), "equal points are one");
   std::set<Exact_point> there;
   std::array<Integer, 3> low, high;
