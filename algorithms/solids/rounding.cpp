@@ -21,11 +21,15 @@ namespace sightline {
 
 namespace {
 
-/// The nearest float to a rational, ties to even: the nearest double says it unless that is halfway between two floats.
+/// The nearest float to a rational, ties to even: the nearest double says it unless that is halfway between two floats,
+/// or between the greatest one and what floats hold no more.
 float nearest_float(const Rational& value) {
-  const double near = nearest_double(value);
-  float result = static_cast<float>(near);
-  if (!std::isfinite(result)) return result;
+  constexpr float greatest = std::numeric_limits<float>::max();
+  const float result = static_cast<float>(nearest_double(value));
+  if (!std::isfinite(result)) {
+    static const Rational first_beyond = exact(0x1p128 - 0x1p103);
+    return abs(value) < first_beyond ? std::copysign(greatest, result) : result;
+  }
   const Rational at = exact(static_cast<double>(result));
   const float beyond = std::nextafter(
       result, value < at ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity());

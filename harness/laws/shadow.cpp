@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace sightline::harness {
@@ -49,6 +51,15 @@ Exact_point middle_of(const std::vector<Exact_point>& corners) {
     for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k];
   for (Rational& x : sum) x /= static_cast<long>(corners.size());
   return sum;
+}
+
+/// The side of a polygon on which the light is: the front's is positive.
+Sign side_of(const std::vector<Exact_point>& corners, const Exact_point& light, bool is_sun) {
+  Rational sum = 0;  // along twice the polygon's area as a vector
+  for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+    sum += dot(cross(minus(corners[k], corners[0]), minus(corners[k + 1], corners[0])),
+               is_sun ? light : minus(light, corners[0]));
+  return static_cast<Sign>(sgn(sum));
 }
 
 /// The faces that keep the light from a point, and are nearest to it; those edge-on do not count.
@@ -149,25 +160,29 @@ Check by_volume() {
 }
 
 Check by_definition() {
-  return {"definition", "parts tile their pieces, and rays to the light meet what shadows them, from points and suns",
-          [](const Posed_scene& posed, const Answer& answer, Random& random) {
-            if (!answer.planar) return Outcome::not_applicable();
-            const Scene scene(posed.soup);
-            const Piece_boxes boxes(scene);
-            Shadow_options options;
-            options.threads = 1;
-            options.two_sided = random.chance(1, 2);
-            std::string flaw =
-                flaw_of(shadows(Exact_view(scene, posed.eye), boxes, options), posed.soup, scene, posed.eye, false);
-            for (int k = 0; k < 2 && flaw.empty(); ++k) {
-              const Exact_point sun = draw_sun(posed.soup, random);
-              flaw = flaw_of(shadows(Exact_view(scene, Sun{sun}), boxes, options), posed.soup, scene, sun, true);
-              if (!flaw.empty())
-                flaw = "sun " + sightline::to_string(sun[0]) + "," + sightline::to_string(sun[1]) + "," +
-                       sightline::to_string(sun[2]) + ": " + flaw;
-            }
-            return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
-          }};
+  return {
+      "definition",
+      "parts tile the pieces that are asked, rays to the light meet what shadows them, and faces are lit or away by "
+      "them, from points and suns",
+      [](const Posed_scene& posed, const Answer& answer, Random& random) {
+        if (!answer.planar) return Outcome::not_applicable();
+        const Scene scene(posed.soup);
+        const Piece_boxes boxes(scene);
+        Shadow_options options;
+        options.threads = 1;
+        options.two_sided = random.chance(1, 2);
+        std::string flaw = flaw_of(shadows(Exact_view(scene, posed.eye), boxes, options), posed.soup, scene, posed.eye,
+                                   false, options.two_sided);
+        for (int k = 0; k < 2 && flaw.empty(); ++k) {
+          const Exact_point sun = draw_sun(posed.soup, random);
+          flaw = flaw_of(shadows(Exact_view(scene, Sun{sun}), boxes, options), posed.soup, scene, sun, true,
+                         options.two_sided);
+          if (!flaw.empty())
+            flaw = "sun " + sightline::to_string(sun[0]) + "," + sightline::to_string(sun[1]) + "," +
+                   sightline::to_string(sun[2]) + ": " + flaw;
+        }
+        return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
+      }};
 }
 
 /// What `see` sees from the light is lit.
@@ -216,7 +231,7 @@ Rational area_of(const std::vector<Exact_point>& polygon, std::size_t axis) {
 }
 
 std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scene& scene, const Exact_point& light,
-                    bool is_sun) {
+                    bool is_sun, bool two_sided) {
   using namespace shadow_subject;
   std::map<std::uint32_t, Rational> area;
   for (const Shadow_part& part : shadows.parts) {
@@ -225,6 +240,7 @@ std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scen
     const std::size_t axis = axis_of(whole);
     const Rational of_whole = area_of(whole, axis), of_part = area_of(part.vertices, axis);
     const std::string name = "a part of face " + std::to_string(piece.face);
+    if (part.side != side_of(whole, light, is_sun)) return name + " has the light on its other side";
     if (sgn(of_part) != sgn(of_whole) || !is_convex(part.vertices, axis, sgn(of_whole)))
       return name + " is not convex, or turned round";
     area[part.piece] += of_part;
@@ -241,6 +257,23 @@ std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scen
     const std::vector<Exact_point> whole = corners_of(scene, piece);
     if (twice != area_of(whole, axis_of(whole))) return "parts do not tile " + face_name(scene.pieces()[piece].face);
   }
+
+  std::set<Face_id> kept, turned, lit, away;
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
+    const Face_id face = scene.pieces()[piece].face;
+    const Sign side = side_of(corners_of(scene, piece), light, is_sun);
+    const bool is_asked = side == CGAL::POSITIVE || (two_sided && side == CGAL::NEGATIVE);
+    if (is_asked != area.contains(piece))
+      return face_name(face) +
+             (is_asked ? " is turned to the light, but has no parts" : " has parts, but is not asked");
+    kept.insert(face);
+    if (is_asked) turned.insert(face);
+  }
+  for (const Shadow_part& part : shadows.parts)
+    if (part.is_lit()) lit.insert(scene.pieces()[part.piece].face);
+  std::ranges::set_difference(kept, turned, std::inserter(away, away.end()));
+  if (!std::ranges::equal(shadows.lit, lit)) return "the faces that are lit are not those of the lit parts";
+  if (!std::ranges::equal(shadows.away, away)) return "the faces said to be away are not those without a part";
   return {};
 }
 

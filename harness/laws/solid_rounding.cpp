@@ -274,6 +274,7 @@ std::string flaw_of_rounded(const Polygon_soup& exact, Rounding to, Random& rand
                              : near.rounds > 0 ? "snapped: "
                                                : "rounded: ";
     if (near.rounds > 0 && !near.is_sound()) return name + "something is broken";
+    if (near.rounds > 0 && all[0].is_sound()) return name + "and was sound once rounded";
     const std::vector<Polygon_soup> one{near.soup};
     const std::vector<Operand_flaw> open = flaws(Operands(one));
     const bool crosses_itself =  // a face; its edges are open then

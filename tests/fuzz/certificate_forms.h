@@ -6,6 +6,7 @@
 #include "support.h"
 
 #include <array>
+#include <list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -119,10 +120,94 @@ inline const std::vector<Formed_certificate>& formed_certificates() {
   return whole;
 }
 
+/// The same of set operations.
+inline const std::vector<Formed_certificate>& formed_solid_certificates() {
+  static constexpr std::string_view begin = R"({"format":"sightline boolean 1",)";
+  static constexpr std::string_view head = R"("operation":"union","inside":"nonzero","operands":)";
+  static constexpr std::string_view points = R"(,"points":[["0","0","0"],["1/2","0","0"],["0","1","0"])";
+  static constexpr std::string_view end = R"(,"pieces":[],"set_aside":[]})";
+  static const std::vector<Formed_certificate> all = [] {
+    std::vector<Formed_certificate> found;
+    const auto add = [&](const std::string& before, const std::string& after, const std::vector<Form>& forms) {
+      static std::list<std::string> kept;  // what the views are of
+      for (const Form& form : forms)
+        found.push_back({kept.emplace_back(before), kept.emplace_back(after), {form, {"", true}}});
+    };
+    const std::string operands = std::string(begin) + std::string(head);
+    const std::string top = operands + "2" + std::string(points);
+    const std::string no_fragments = R"(],"fragments":[])" + std::string(end);
+    add("{", "," + std::string(head) + "2" + std::string(points) + no_fragments,
+        {{R"("format":"sightline boolean 1")", true},
+         {R"("format":"sightline boolean 2")", false},
+         {R"("format":"sightline boolean")", false},
+         {R"("format":1)", false},
+         {R"("format":"sightline boolean 1","operation":"union")", false},
+         {R"("other":"sightline boolean 1")", false}});
+    add(operands, std::string(points) + no_fragments,
+        {{"2", true}, {"4294967295", true}, {"4294967296", false}, {"-1", false}, {"2.0", false}, {R"("2")", false}});
+    add(top, no_fragments,
+        {{"", true},
+         {R"(,["1","2/3","-3"])", true},
+         {R"(,["1","2"])", false},
+         {R"(,["1","2","3","4"])", false},
+         {R"(,["1","2","a"])", false},
+         {R"(,"1")", false},
+         {R"(,{"x":"1","y":"2","z":"3"})", false}});
+    add(top + R"(],"fragments":[{"vertices":[0,1,2],"front":[],"fate":"kept","parts":[)", "]}]" + std::string(end),
+        {{"[0,0,0,0]", true},
+         {"[1,7,4294967295,1],[0,0,0,0]", true},
+         {"[0,0,0,2]", true},
+         {"", true},
+         {"[0,0,0]", false},
+         {"[0,0,0,0,0]", false},
+         {"[0,0,4294967296,0]", false},
+         {"[-1,0,0,0]", false},
+         {"[0,0,0,true]", false},
+         {"[]", false},
+         {R"({"a":0,"b":0,"c":0,"d":0})", false},
+         {"0", false}});
+    add(top + R"(],"fragments":[{"vertices":[0,1,2],"parts":[],"fate":"dropped","front":[)", "]}]" + std::string(end),
+        {{"[0,1]", true},
+         {"[0,1],[1,-2147483647]", true},
+         {"[0,2147483647]", true},
+         {"[0,-2147483648]", false},
+         {"[0,2147483648]", false},
+         {"[0]", false},
+         {"[0,1,2]", false},
+         {"[-1,0]", false},
+         {"[0,1.5]", false},
+         {R"({"a":0,"b":1})", false},
+         {"0", false}});
+    add(top + R"(],"fragments":[{"parts":[],"front":[],"fate":"turned","vertices":[)", "]}]" + std::string(end),
+        {{"0,1,2", true}, {"2,1,0,1", true}, {"0,1", false}, {"", false}, {"0,1,3", false}, {"0,1,-1", false}});
+    add(top + R"(],"fragments":[{"parts":[],"front":[],"vertices":[0,1,2],"fate":)", "}]" + std::string(end),
+        {{R"("dropped")", true},
+         {R"("kept")", true},
+         {R"("turned")", true},
+         {R"("keep")", false},
+         {R"("")", false},
+         {"1", false}});
+    add(top + R"(],"fragments":[],"set_aside":[],"pieces":[)", "]}",
+        {{R"({"operand":0,"face":1,"piece":2,"vertices":[0,1,2]})", true},
+         {R"({"operand":0,"face":1,"piece":2,"vertices":[0,1]})", false},
+         {R"({"operand":0,"face":1,"vertices":[0,1,2]})", false},
+         {R"({"operand":0,"face":-1,"piece":2,"vertices":[0,1,2]})", false},
+         {"[0,1,2]", false}});
+    add(top + R"(],"fragments":[],"pieces":[],"set_aside":[)", "]}",
+        {{R"({"operand":0,"face":1,"why":"because"})", true},
+         {R"({"operand":0,"face":1,"why":7})", false},
+         {R"({"operand":0,"face":1})", false},
+         {R"({"operand":4294967296,"face":1,"why":"because"})", false}});
+    return found;
+  }();
+  return all;
+}
+
 /// One of them, with blanks between its tokens or without.
 inline void certificate_forms(std::string_view bytes) {
   Bytes from(bytes);
-  const std::vector<Formed_certificate>& all = formed_certificates();
+  const bool is_of_solids = from.below(3) == 0;
+  const std::vector<Formed_certificate>& all = is_of_solids ? formed_solid_certificates() : formed_certificates();
   const Formed_certificate& one = all[from.word() % all.size()];
   const bool is_right = one.forms[0].is_right, has_lines = from.below(2) == 0;
   const std::string whole = std::string(one.before) + std::string(one.forms[0].text) + std::string(one.forms[1].text) +
@@ -134,13 +219,17 @@ inline void certificate_forms(std::string_view bytes) {
     text += c;
     if (has_lines && c == ',' && !is_quoted) text += from.below(2) == 0 ? "\n" : " ";
   }
-  const auto certificate = taken("certificate: ", [&] {
-    std::istringstream in{text};
-    return sightline::read_certificate(in);
-  });
-  if (certificate.has_value() != is_right)
+  const bool is_taken = is_of_solids ? taken("no certificate of a set operation: ",
+                                             [&] { return sightline::read_solid_certificate(text); })
+                                           .has_value()
+                                     : taken("certificate: ", [&] {
+                                         std::istringstream in{text};
+                                         return sightline::read_certificate(in);
+                                       }).has_value();
+  if (is_taken != is_right)
     throw Finding((is_right ? "a form that is right is refused: " : "a form that is wrong is taken: ") + text);
-  read_certificate(text);
+  if (is_of_solids) read_solid_certificate(text);
+  else read_certificate(text);
 }
 
 }  // namespace fuzz

@@ -77,19 +77,23 @@ inline std::optional<Rational> plain_rational(std::string_view text) {
   return value;
 }
 
-/// By distances to the neighbouring doubles alone.
-inline bool is_nearest_double(double d, const Rational& value) {
-  const Rational largest = exact(std::numeric_limits<double>::max()), half_step = exact(0x1p970);
+/// Whether a double or float is the nearest, ties to even. By distances to its neighbours alone.
+template <class Floating>
+bool is_nearest(Floating d, const Rational& value) {
+  using Limits = std::numeric_limits<Floating>;
+  const Rational largest = exact(Limits::max()),
+                 half_step = exact(std::ldexp(1.0, Limits::max_exponent - Limits::digits - 1));
   if (std::isinf(d)) return std::signbit(d) == (sgn(value) < 0) && abs(value) >= largest + half_step;
   const Rational distance = abs(value - exact(d));
-  for (const double toward : {-1.0, 1.0}) {
-    const double next = std::nextafter(d, toward * std::numeric_limits<double>::infinity());
+  for (const int toward : {-1, 1}) {
+    const Floating next = std::nextafter(d, toward * Limits::infinity());
     if (std::isinf(next)) {
       if (distance >= half_step && abs(value) > largest) return false;
       continue;
     }
     const Rational other = abs(value - exact(next));
-    const bool even = (std::bit_cast<std::uint64_t>(d) & 1) == 0;
+    using Bits = std::conditional_t<sizeof(Floating) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
+    const bool even = (std::bit_cast<Bits>(d) & 1) == 0;
     if (other < distance || (other == distance && !even)) return false;
   }
   return true;
@@ -114,7 +118,7 @@ inline void check_number(const Number& number, const Rational& truth) {
   if (decimal)
     require(decimal->exponent <= 0 && (decimal->exponent == 0 || decimal->mantissa % 10 != 0),
             "a Decimal is canonical");
-  require(is_nearest_double(nearest_double(truth), truth), "the nearest double is the nearest");
+  require(is_nearest(nearest_double(truth), truth), "the nearest double is the nearest");
   Coordinates coordinates;
   for (int copies = 0; copies < 2; ++copies) push(coordinates, number);
   coordinates.push(Rational(1, 3));
@@ -133,8 +137,8 @@ inline void check_rounding(std::string_view word, Number_syntax syntax, const Ra
   options.round_to_double = true;
   const std::optional<Number> rounded = number_in(
       word, [&](const Text_reader& of, std::string_view token) { return read_coordinate(of, token, syntax, options); });
-  if (rounded) require(is_nearest_double(std::get<double>(*rounded), truth), "what is rounded is nearest");
-  else require(is_nearest_double(std::numeric_limits<double>::infinity(), abs(truth)), "doubles are read");
+  if (rounded) require(is_nearest(std::get<double>(*rounded), truth), "what is rounded is nearest");
+  else require(is_nearest(std::numeric_limits<double>::infinity(), abs(truth)), "doubles are read");
 }
 
 inline void decimal(std::string_view bytes) {

@@ -1,11 +1,14 @@
 #pragma once
 // Parts of the library by themselves, at the bounds of what they are asked: boxes for rays, matrix games, moments of a
-// path, tables of planes, vertices of a CGAL kernel, and what is left of faces that are hardly any.
+// path, tables of planes, vertices of a CGAL kernel, points rounded to numbers, and what is left of faces that are
+// hardly any.
 
+#include "decimal.h"
 #include "refusals.h"
 #include "support.h"
 
 #include <sightline/algorithms/rays/ray_boxes.h>
+#include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/verify/faces.h>
 #include <sightline/algorithms/verify/moments.h>
 #include <sightline/algorithms/verify/set_aside.h>
@@ -19,6 +22,7 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/point_traits.h>
+#include <sightline/kernel/vectors.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
@@ -489,9 +493,76 @@ inline void try_hardly_faces(Random& random) {
   require(refused({0, 5, 1, 6, 14}, random.chance(1, 2)), "what is simple along no axis is no surface of nothing");
 }
 
+// ---- Points rounded to numbers
+
+/// A number beside the middle between two neighbouring floats or doubles, or on it; also the smallest and the largest.
+template <class Floating>
+Rational about_halfway(Random& random) {
+  using Limits = std::numeric_limits<Floating>;
+  Floating near = std::ldexp(static_cast<Floating>(random.between(1 << 20, 1 << 21)), -20);
+  switch (random.below(8)) {
+    case 0: near = Limits::max(); break;
+    case 1: near = Limits::min(); break;
+    case 2: near = static_cast<Floating>(random.below(3)) * Limits::denorm_min(); break;
+    case 3: near = std::nextafter(Floating{2}, Floating{0}); break;
+    default: near = std::ldexp(near, static_cast<int>(random.between(-9, 9)));
+  }
+  const Rational half =
+      exact(std::ldexp(1.0, std::max(near == 0 ? 0 : std::ilogb(near), Limits::min_exponent - 1) - Limits::digits));
+  Rational hair = half;
+  mpq_div_2exp(hair.get_mpq_t(), hair.get_mpq_t(), static_cast<mp_bitcnt_t>(random.between(1, 90)));
+  const Rational value = exact(near) + half + hair * static_cast<long>(random.between(-1, 1));
+  return random.chance(1, 2) ? value : Rational(-value);
+}
+
+/// Of a tetrahedron each corner goes to the nearest numbers, or all are refused: there are none.
+template <class Floating>
+void try_rounding(Random& random) {
+  Polygon_soup soup;
+  std::vector<Exact_point> corners(4);
+  for (Exact_point& p : corners)
+    for (Rational& x : p)
+      x = random.chance(1, 2) ? about_halfway<Floating>(random) : Rational(static_cast<long>(random.between(-2, 2)));
+  const Rational volume =
+      dot(minus(corners[1], corners[0]), cross(minus(corners[2], corners[0]), minus(corners[3], corners[0])));
+  if (volume == 0) return;
+  if (volume < 0) std::swap(corners[2], corners[3]);
+  for (const Exact_point& p : corners) soup.add_point(p[0], p[1], p[2]);
+  for (const auto& [a, b, c] : {std::array{0u, 2u, 1u}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})
+    soup.add_face(std::vector<Point_id>{a, b, c});
+  std::optional<Rounded_surface> made;
+  if (is_refused<std::domain_error>([&] {
+        made = rounded(soup, sizeof(Floating) == sizeof(float) ? Rounding::to_float : Rounding::to_double);
+      })) {
+    bool is_beyond = false;
+    for (const Exact_point& p : corners)
+      for (const Rational& x : p)
+        is_beyond =
+            is_beyond ||
+            is_nearest(std::copysign(std::numeric_limits<Floating>::infinity(), static_cast<Floating>(sgn(x))), x);
+    return require(is_beyond, "only what the numbers do not hold is refused");
+  }
+  Rational farthest = 0;
+  std::set<Point_id> moved;
+  for (Face_id f = 0; f < made->soup.face_count(); ++f) {
+    const auto now = made->soup.loop(f), before = soup.loop(made->face_of[f]);
+    require(now.size() == 3, "a triangle stays one");
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Rational x = made->soup.point(now[k])[axis], then = soup.point(before[k])[axis];
+        const auto number = static_cast<Floating>(x.get_d());
+        require(exact(number) == x && is_nearest(number, then), "a coordinate goes to the nearest number");
+        farthest = std::max(farthest, Rational(abs(x - then)));
+        if (x != then) moved.insert(before[k]);
+      }
+  }
+  require(made->moved >= moved.size(), "points that move are counted");
+  require(exact(made->farthest) >= farthest, "nothing moves farther than what is said");
+}
+
 inline void single_parts(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(8);
+  const std::size_t kind = from.below(10);
   Random random(from.word());
   switch (kind) {
     case 0: return try_ray_boxes(random);
@@ -501,6 +572,8 @@ inline void single_parts(std::string_view bytes) {
     case 4: return try_plane_table(random);
     case 5: return try_lazy_points(random);
     case 6: return try_line_table(random);
+    case 7: return try_rounding<float>(random);
+    case 8: return try_rounding<double>(random);
     default: return try_hardly_faces(random);
   }
 }

@@ -541,7 +541,7 @@ inline void check_text(const Page& page, Format format, const Meant& meant) {
   if (page.wrong) return;
   bool beyond = false;  // doubles
   for (const Exact_point& p : meant.points)
-    for (const Rational& x : p) beyond = beyond || is_nearest_double(INFINITY, abs(x));
+    for (const Rational& x : p) beyond = beyond || is_nearest(HUGE_VAL, abs(x));
   if (beyond && format == Format::stl) return;  // perhaps of no face
   try {
     const Polygon_soup soup = read_scene(page.text, format, "scene", {true});
@@ -550,7 +550,7 @@ inline void check_text(const Page& page, Format format, const Meant& meant) {
       for (std::size_t k = 0; k < soup.loop(f).size(); ++k)
         for (std::size_t a = 0; a < 3; ++a) {
           const Rational x = soup.point(soup.loop(f)[k])[a];
-          require(exact(x.get_d()) == x && is_nearest_double(x.get_d(), meant.points[meant.faces[f][k]][a]),
+          require(exact(x.get_d()) == x && is_nearest(x.get_d(), meant.points[meant.faces[f][k]][a]),
                   "what is rounded is the nearest double");
         }
   } catch (const Input_error&) {

@@ -1,7 +1,8 @@
 #pragma once
 // Files written for what is in them, and read: glTF (written_gltf.h), Quake's levels (written_bsp.h) and their brushes,
-// lists of numbers, materials; and endings of names.
+// triangles in text (text_forms.h), lists of numbers, materials; and endings of names.
 
+#include "text_forms.h"
 #include "written_bsp.h"
 #include "written_gltf.h"
 
@@ -261,9 +262,10 @@ inline void try_endings(generate::Random& random) {
 
 inline void written(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(16);
+  const std::size_t kind = from.below(20);
   generate::Random random(from.word());
-  if (kind < 5) try_gltf(random);
+  if (kind > 15) try_forms(random);
+  else if (kind < 5) try_gltf(random);
   else if (kind < 9) try_level(random);
   else if (kind < 13) try_brushes(random);
   else if (kind == 13) try_numbers(random);

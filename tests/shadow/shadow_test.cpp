@@ -49,7 +49,7 @@ std::map<std::pair<Face_id, Face_id>, Rational> areas(const Polygon_soup& soup, 
   options.two_sided = two_sided;
   const Shadows made = is_sun ? shadows(Exact_view(scene, Sun{light}), boxes, options)
                               : shadows(Exact_view(scene, light), boxes, options);
-  EXPECT_EQ(harness::flaw_of(made, soup, scene, light, is_sun), "");
+  EXPECT_EQ(harness::flaw_of(made, soup, scene, light, is_sun, two_sided), "");
   std::map<std::pair<Face_id, Face_id>, Rational> all;
   for (const Shadow_part& part : made.parts)
     all[{scene.pieces()[part.piece].face, part.is_lit() ? ~0u : scene.pieces()[part.by].face}] +=
@@ -114,7 +114,7 @@ TEST(Shadow, a_light_in_a_plane_on_a_face_on_an_edge_or_at_a_corner_is_as_see_ha
     for (const bool two_sided : {false, true}) {
       Shadow_options options;
       options.two_sided = two_sided;
-      EXPECT_EQ(harness::flaw_of(shadows(view, boxes, options), soup, scene, light, false), "");
+      EXPECT_EQ(harness::flaw_of(shadows(view, boxes, options), soup, scene, light, false, two_sided), "");
     }
   }
   EXPECT_TRUE(shadows(Exact_view(scene, {1, 1, 1}), boxes).lit.empty()) << "a lamp in a closed body lights nothing";
@@ -127,7 +127,7 @@ TEST(Shadow, a_sun_is_a_light_far_away) {
   const std::vector<Exact_point> suns{{1, 2, 3}, {2, 1, -1}, {-3, 1, 1}, {1, -4, 2}, {-5, 7, 1}};
   for (const Exact_point& sun : std::span(suns).first(test_scenes::is_sanitized() ? 2 : suns.size())) {
     const Shadows by_sun = shadows(Exact_view(scene, Sun{sun}), boxes);
-    EXPECT_EQ(harness::flaw_of(by_sun, soup, scene, sun, true), "");
+    EXPECT_EQ(harness::flaw_of(by_sun, soup, scene, sun, true, false), "");
     Exact_point far = sun;
     for (Rational& x : far) mpq_mul_2exp(x.get_mpq_t(), x.get_mpq_t(), 60);
     const Shadows by_light = shadows(Exact_view(scene, far), boxes);

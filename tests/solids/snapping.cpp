@@ -21,7 +21,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace {
@@ -250,6 +252,11 @@ TEST(Snapping, rounds_to_floats_once) {
   EXPECT_EQ(near.soup.point(0), (Exact_point{1 + 2 * half, 1 + 2 * half, -1 - 2 * half}));
   const Exact_point ties{1 + half, 1 + 3 * half, -1 - half};
   EXPECT_EQ(rounded(point_alone(ties), Rounding::to_float).soup.point(0), (Exact_point{1, 1 + 4 * half, -1}));
+  // Likewise between the greatest float and what would be the next.
+  const Rational greatest = exact(std::numeric_limits<float>::max()), beyond = greatest + generate::power_of_two(103);
+  const Exact_point last{beyond - little, little - beyond, 0};
+  EXPECT_EQ(rounded(point_alone(last), Rounding::to_float).soup.point(0), (Exact_point{greatest, -greatest, 0}));
+  EXPECT_THROW(rounded(point_alone({0, beyond, 0}), Rounding::to_float), std::domain_error);
 }
 
 TEST(Snapping, takes_coarser_grids_after_as_many_rounds_as_it_is_allowed) {
