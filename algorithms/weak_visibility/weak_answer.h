@@ -21,10 +21,10 @@ enum class Weak_status : char { hidden, visible, undecided };
 
 /// What a search modelled.
 struct Weak_counters {
-  std::size_t targets = 0;    ///< pairs of a source and a piece
-  std::size_t away = 0;       ///< of these, facing away from each other, all of them
-  std::size_t by_rays = 0;    ///< of these, seen along one of the first few lines
-  std::size_t by_one = 0;     ///< of these, hidden by one piece on the line of middles
+  std::size_t targets = 0;  ///< pairs of a source and a piece
+  std::size_t away = 0;     ///< of these, facing away from each other, all of them
+  std::size_t by_rays = 0;  ///< of these, seen along one of the first few lines
+  std::size_t by_one = 0;  ///< of these, or of their parts where the plane of one passes the other, hidden by one piece
   std::size_t occluders = 0;  ///< pieces near the shafts, summed over pairs
   std::size_t cells = 0, cuts = 0, shaves = 0, bisections = 0, blocked = 0, empty = 0, corners = 0, learned = 0,
               jumps = 0;

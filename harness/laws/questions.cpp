@@ -45,6 +45,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -77,6 +79,18 @@ void put_soup(std::ostream& out, const Polygon_soup& soup) {
 
 void put_verdict(std::ostream& out, const Verdict& verdict) { out << verdict.accepted << ' ' << verdict.why << '\n'; }
 
+/// Throws where a counter went below zero, which makes it very large.
+template <class Counters>
+void require_counted(const Counters& counters) {
+  constexpr std::size_t most = std::size_t{1} << 48;
+  Counters::each([&](std::string_view key, auto member, auto...) {
+    const auto& value = counters.*member;
+    if constexpr (std::is_class_v<std::remove_cvref_t<decltype(value)>>) require_counted(value);
+    else if (static_cast<std::size_t>(value) > most)
+      throw std::logic_error("a counter is below zero: " + std::string(key));
+  });
+}
+
 Verify_options verifying(const Manner& manner) { return {manner.threads, manner.progress}; }
 
 // ---- From a point
@@ -87,6 +101,7 @@ std::string surface(const Posed_scene& posed, const Manner& manner, std::uint64_
   const Scene scene(posed.soup);
   const Exact_view view(scene, posed.eye);
   const auto seen = visible_surface(view, Piece_boxes(scene), visible_options(manner));
+  require_counted(seen.counters);
   std::ostringstream out;
   write_visible_certificate(out, view, seen, posed.eye);
   return out.str();
@@ -137,8 +152,9 @@ std::string way(const Posed_scene& posed, const Manner& manner, std::uint64_t ch
   options.threads = manner.threads;
   options.progress = manner.progress;
   const Occluders occluders(scene);
-  const Along_certificate claim =
-      along_certificate(scene, visible_along(occluders, posed.eye, to, options), posed.eye, to, options.two_sided);
+  const auto along = visible_along(occluders, posed.eye, to, options);
+  require_counted(along.counters);
+  const Along_certificate claim = along_certificate(scene, along, posed.eye, to, options.two_sided);
   std::ostringstream out;
   write_certificate(out, claim);
   put_verdict(out, verify_along(posed.soup, claim, verifying(manner)));
@@ -167,6 +183,7 @@ std::string priority_tree(const Posed_scene& posed, const Manner& manner, std::u
   const Scene scene(posed.soup);
   const Exact_traits traits(scene);
   const auto tree = build_priority_tree(traits, {choice % 2 != 0, choice / 2 % 2 != 0, manner.progress});
+  require_counted(tree.counters);
   std::ostringstream out;
   for (const auto& node : tree.nodes)
     out << static_cast<int>(node.kind) << ' ' << node.first << ' ' << node.count << '\n';
@@ -221,6 +238,7 @@ std::string possibly(const Posed_scene& posed, const Manner& manner, std::uint64
   const Occluders occluders(scene);
   const Weakly_visible found = possibly_visible(occluders, {weak_source(occluders, posed.source)},
                                                 {choice % 2 != 0, manner.threads, manner.progress});
+  require_counted(found.counters);
   std::ostringstream out;
   put_all(out, found.visible);
   put_all(out, found.hidden);
@@ -236,9 +254,9 @@ std::string weakly(const Posed_scene& posed, const Manner& manner, std::uint64_t
   options.search.cells = most_cells;
   options.threads = manner.threads;
   options.progress = manner.progress;
-  const Weak_certificate claim =
-      weak_certificate(scene, {posed.source}, options.search.two_sided,
-                       weakly_visible(occluders, {weak_source(occluders, posed.source)}, options));
+  const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, posed.source)}, options);
+  require_counted(found.counters);
+  const Weak_certificate claim = weak_certificate(scene, {posed.source}, options.search.two_sided, found);
   std::ostringstream out;
   write_certificate(out, claim);
   put_verdict(out, verify_weak(posed.soup, claim, verifying(manner)));
@@ -270,6 +288,7 @@ void put_rows(std::ostream& out, const std::vector<std::vector<std::uint32_t>>& 
 
 std::string cells(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
   const Level_cells level = level_of(posed, manner, choice);
+  require_counted(level.counters());
   std::ostringstream out;
   put_points(out, level.points());
   for (const Level_cell& cell : level.cells()) {
@@ -287,6 +306,7 @@ std::string cells(const Posed_scene& posed, const Manner& manner, std::uint64_t 
 /// Of a table in which all is decided; what is not may be another pair each time.
 template <class Table>
 std::string text_of(const Table& table) {
+  require_counted(table.counters);
   if (table.counters.undecided > 0) return {};
   std::ostringstream out;
   put_rows(out, table.visible);
@@ -305,6 +325,7 @@ std::string parts(const Posed_scene& posed, const Manner& manner, std::uint64_t 
   const Scene scene(posed.soup);
   const Shadows found =
       shadows(Exact_view(scene, posed.eye), Piece_boxes(scene), {choice % 2 != 0, manner.threads, manner.progress});
+  require_counted(found.counters);
   std::ostringstream out;
   for (const Shadow_part& part : found.parts) {
     out << part.piece << ' ' << part.by << ' ' << int{part.side} << ": ";
@@ -410,6 +431,7 @@ std::string set_of_solids(const Posed_scene& posed, const Manner& manner, std::u
   std::ostringstream out;
   run_with_threads(manner.threads, [&] {
     const Set_result result = set_operation(operands, options);
+    require_counted(result.counters);
     const Solid_certificate claim = solid_certificate(operands, options, result);
     write_solid_certificate(out, claim);
     put_soup(out, result.soup);

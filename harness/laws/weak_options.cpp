@@ -7,12 +7,14 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <atomic>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sightline::harness {
@@ -85,9 +87,17 @@ Outcome from_both_sides(const Posed_scene& posed, const Answer& answer, Random& 
   const Weakly_visible_by_events by_events = weakly_visible_by_events(occluders, sources, events);
   if (!told_by_events.is_whole()) return Outcome::failed("events do not tell of each face once");
   const Event_counters& counters = by_events.counters;
+  for (const auto& surface : by_events.surfaces)
+    if (surface.rulings.size() < 2) return Outcome::failed("a surface of events has no two rulings");
   if (asks < counters.horizon + counters.edge_vertex + counters.triple)
     return Outcome::failed("events do not ask before each of them whether there is time");
   return compared(lines, labelled(posed.soup, by_events), "lines from both sides", "events from both sides");
+}
+
+bool are_in_order(const std::vector<Weakly_visible::Pair>& pairs) {
+  for (std::size_t k = 1; k < pairs.size(); ++k)
+    if (std::pair(pairs[k - 1].piece, pairs[k - 1].source) >= std::pair(pairs[k].piece, pairs[k].source)) return false;
+  return true;
 }
 
 Outcome of_the_rest(const Posed_scene& posed, const Answer& answer, Random& random) {
@@ -96,7 +106,9 @@ Outcome of_the_rest(const Posed_scene& posed, const Answer& answer, Random& rand
   const Scene scene(posed.soup);
   if (scene.pieces().size() > most_pieces) return Outcome::not_applicable();
   const Occluders occluders(scene);
-  const std::vector<Weak_source> sources{weak_source(occluders, posed.source)};
+  // Two sources that are one see the same, and have their pairs one after the other.
+  const std::vector<generate::Points> polygons(random.chance(1, 2) ? 1 : 2, posed.source);
+  const std::vector<Weak_source> sources(polygons.size(), weak_source(occluders, posed.source));
   Weak_options options;
   options.threads = 1;
   options.search.rays = 0;
@@ -112,7 +124,9 @@ Outcome of_the_rest(const Posed_scene& posed, const Answer& answer, Random& rand
   decide_the_rest(occluders, sources, options, random.below(24), events, found);
   if (!found.undecided.empty() && steps <= most_steps)
     return Outcome::failed(face_name(found.undecided[0]) + " is left undecided though there was time");
-  const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, {posed.source}, false, found));
+  for (const auto* pairs : {&found.pairs, &found.open})
+    if (!are_in_order(*pairs)) return Outcome::failed("pairs do not come by pieces and sources");
+  const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, polygons, false, found));
   if (!verdict.accepted) return Outcome::failed("the certificate is rejected: " + verdict.why);
   return compared(answer, labelled(posed.soup, found), "the search", "going on until all is decided");
 }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,9 @@ namespace sightline::harness {
 
 namespace {
 
-Exact_point point_of(const Light_partition& partition, const std::array<Rational, 2>& at) {
+using Place = std::array<Rational, 2>;
+
+Exact_point point_of(const Light_partition& partition, const Place& at) {
   Exact_point p = partition.chart[0];
   for (std::size_t k = 0; k < 3; ++k) p[k] += at[0] * partition.chart[1][k] + at[1] * partition.chart[2][k];
   return p;
@@ -84,17 +87,49 @@ std::string flaw_of_edges(const Scene& scene, std::uint32_t piece, const generat
          " by brute force" + (images.size() == outline.size() ? ", others" : "");
 }
 
+Light light_at(const Scene& scene, std::uint32_t piece, const generate::Points& source, const Exact_point& eye) {
+  using weak_flats::Level;
+  const std::vector<generate::Points> all = weak_flats::polygons(scene);
+  const Level front = weak_flats::level_of(all[piece]), of_source = weak_flats::level_of(source);
+  if (of_source.side(eye) <= 0) return Light::umbra;
+  const std::vector<weak_flats::Flat_line> seen = weak_flats::seen_outline(all, source, front, eye);
+  if (seen.empty()) return Light::umbra;
+  std::vector<weak_flats::Flat_line> whole;
+  for (std::size_t i = 0; i < source.size(); ++i)
+    whole.push_back(weak_flats::image_of(source, eye, {source[i], source[(i + 1) % source.size()]}));
+  std::sort(whole.begin(), whole.end());
+  whole.erase(std::unique(whole.begin(), whole.end()), whole.end());
+  return seen == whole ? Light::lit : Light::penumbra;
+}
+
 namespace {
 
-/// That a point of a cell is found there, and any other point in a cell that has its light, or on a border.
+/// Whether it is seen that no curve passes between two points: none has a root on the segment, by what bounds it there.
+bool are_together(const Light_partition& partition, const Place& p, const Place& q) {
+  return std::all_of(partition.curves.begin(), partition.curves.end(), [&](const Plane_curve& curve) {
+    const auto value = [&](const Rational& x, const Rational& y) -> Rational {
+      const std::array<Integer, 6>& c = curve.c;
+      return c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y;
+    };
+    const Rational first = value(p[0], p[1]), last = value(q[0], q[1]),
+                   middle = 2 * value((p[0] + q[0]) / 2, (p[1] + q[1]) / 2) - (first + last) / 2;
+    return sgn(first) != 0 && sgn(first) == sgn(middle) && sgn(first) == sgn(last);
+  });
+}
+
+/// That a point of a cell is found there, and any other point in a cell that has its light, or on a border; and points
+/// between which there is no curve in one cell.
 std::string flaw_of_places(const Occluders& occluders, const Weak_source& source, std::uint32_t piece,
                            const Light_partition& partition) {
   constexpr std::size_t most_cells = 10;
+  const auto is_sliver = [&](std::size_t cell) {
+    return partition.cells[cell].area.low < 1e-6;
+  };  // doubles do not tell where it is
   for (std::size_t c = 0; c < std::min(most_cells, partition.cells.size()); ++c) {
-    const std::array<Rational, 2>& at = partition.cells[c].at;
+    const Place& at = partition.cells[c].at;
     const std::size_t found = partition.cell_at(at[0], at[1]);
-    const bool is_sliver = partition.cells[c].area.low < 1e-6;  // doubles do not tell where it is
-    if (found != c && found != Light_partition::none && !is_sliver) return "a point of a cell is found in another one";
+    if (found != c && found != Light_partition::none && !is_sliver(c))
+      return "a point of a cell is found in another one";
     if (partition.point(at[0], at[1]) != point_of(partition, at)) return "a point of the chart is elsewhere in space";
   }
   for (const auto& [x, y] : {std::array{0, 1}, {2, 1}, {1, 0}, {1, 2}})  // halves of the chart's sides
@@ -102,10 +137,17 @@ std::string flaw_of_places(const Occluders& occluders, const Weak_source& source
       return "a point on the chart's border is found in a cell";
   generate::Random places(partition.cells.size());
   for (int k = 0; k < 3; ++k) {
-    const auto number = [&] { return Rational(static_cast<long>(places.between(-20, 1020)), 1000l); };
-    const Rational x = number(), y = number();
+    const auto number = [&](std::int64_t low, std::int64_t high) {
+      return Rational(static_cast<long>(places.between(low, high)), 1000l);
+    };
+    const Rational x = number(-20, 1020), y = number(-20, 1020);
     const std::size_t found = partition.cell_at(x, y);
     if (found == Light_partition::none) continue;
+    const Place other{x + number(-90, 90), y + number(-90, 90)};
+    if (const std::size_t next = partition.cell_at(other[0], other[1]);
+        next != found && next != Light_partition::none && !is_sliver(found) && !is_sliver(next) &&
+        are_together(partition, {x, y}, other))
+      return "two points are in different cells, and no curve is between them";
     Light_partition::Cell there = partition.cells[found];
     there.at = {x, y};
     if (is_contradicted(occluders, source, piece, partition, there, places))
@@ -140,6 +182,13 @@ bool add_bent_face(Polygon_soup& soup, Random& random) {
   soup.add_face(
       generate::added(soup, generate::in_plane(origin, u, v, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}})));
   return true;
+}
+
+/// A source turned round, or a piece of a scene as one, either way round.
+generate::Points other_source(const generate::Points& source, const Scene& scene, std::uint32_t but, Random& random) {
+  const auto piece = static_cast<std::size_t>(random.below(scene.pieces().size()));
+  const bool is_piece = piece != but && random.chance(2, 3);
+  return generate::either_way(is_piece ? weak_flats::polygons(scene)[piece] : source, random);
 }
 
 }  // namespace
@@ -204,7 +253,7 @@ Check partition_check() {
 }
 
 Check outline_check() {
-  return {"outline", "the edges that bound what cells of a face see of the source, against all shadows",
+  return {"outline", "what cells of a face see of the source, and the edges that bound it, against all shadows",
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_pieces = 8;
             constexpr int most_bits = 64;
@@ -215,20 +264,36 @@ Check outline_check() {
             if (answer.labels[scene.pieces()[piece].face] == Answer::none) return Outcome::not_applicable();
             std::size_t asked = 0;
             Partition_options options;
-            options.all_borders = true;
+            options.all_borders = random.chance(1, 2);
             constexpr std::size_t most_rectangles = 1000;
             options.out_of_time = [&] { return ++asked > most_rectangles; };
             Partition_counters counters;
-            const Light_partition partition =
-                Light_partitioner(scene).partition(piece, {posed.source}, options, counters);
+            std::vector<generate::Points> sources{posed.source};
+            if (random.chance(1, 3)) sources.push_back(other_source(posed.source, scene, piece, random));
+            const Light_partition partition = Light_partitioner(scene).partition(piece, sources, options, counters);
             constexpr std::size_t most_cells = 6;
             for (const auto& cell : partition.cells) {
               if (cell.light == Light::undecided ||
                   !random.chance(most_cells, std::max(most_cells, partition.cells.size())))
                 continue;
-              const std::string flaw =
-                  flaw_of_edges(scene, piece, posed.source, point_of(partition, cell.at), cell.edges.at(0));
-              if (!flaw.empty()) return Outcome::failed("from a cell of piece " + std::to_string(piece) + ": " + flaw);
+              const Exact_point at = point_of(partition, cell.at);
+              std::size_t lit = 0, dark = 0;
+              for (const generate::Points& source : sources) {
+                const Light light = light_at(scene, piece, source, at);
+                lit += light == Light::lit;
+                dark += light == Light::umbra;
+              }
+              const Light light = lit == sources.size()    ? Light::lit
+                                  : dark == sources.size() ? Light::umbra
+                                                           : Light::penumbra;
+              if (light != cell.light)
+                return Outcome::failed("a cell of piece " + std::to_string(piece) + " is " + name_of(cell.light) +
+                                       ", and by all shadows " + name_of(light));
+              for (std::size_t s = 0; options.all_borders && s < sources.size(); ++s) {
+                const std::string flaw = flaw_of_edges(scene, piece, sources[s], at, cell.edges.at(s));
+                if (!flaw.empty())
+                  return Outcome::failed("from a cell of piece " + std::to_string(piece) + ": " + flaw);
+              }
             }
             return partition.cells.empty() ? Outcome::not_applicable() : Outcome{};
           }};

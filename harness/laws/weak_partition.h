@@ -1,6 +1,7 @@
 #pragma once
 // Partitions of faces by the light of a source, held to which faces the source sees.
 
+#include <sightline/algorithms/weak_visibility/partition/light_partition.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/subject.h>
 #include <sightline/kernel/scene/scene.h>
@@ -18,9 +19,13 @@ namespace sightline::harness {
 std::string flaw_of_edges(const Scene& scene, std::uint32_t piece, const generate::Points& source,
                           const Exact_point& eye, const std::vector<std::array<Exact_point, 2>>& edges);
 
+/// What a point of a piece's inside sees of a source, by all shadows. Pre: the source is convex. Degenerate: what only
+/// touches is no light. Exact: yes
+Light light_at(const Scene& scene, std::uint32_t piece, const generate::Points& source, const Exact_point& eye);
+
 /// That a face is hidden iff all of it is in umbra, of a share of small scenes; one of its faces each.
 Check partition_check();
-/// The edges that bound what is seen from cells, of a share of the smallest.
+/// What is seen from cells, and the edges that bound it, of a share of the smallest.
 Check outline_check();
 
 }  // namespace sightline::harness

@@ -193,11 +193,42 @@ inline void try_axis_rays(generate::Random& random) {
   }
 }
 
+/// Segments between points of pieces: what blocks one is among the pieces that are near it, which come by rank, each
+/// once.
+inline void try_segments(generate::Random& random) {
+  constexpr std::size_t most_pieces = 60;
+  const std::vector<generate::Family>& families = generate::families();
+  const harness::Posed_scene posed = harness::make(harness::draw_case(families[random.below(families.size())], random));
+  const Scene scene(posed.soup);
+  if (scene.pieces().empty() || scene.pieces().size() > most_pieces) return;
+  const Occluders occluders(scene);
+  const auto any_piece = [&] { return static_cast<std::uint32_t>(random.below(scene.pieces().size())); };
+  const auto point_of = [&](std::uint32_t piece) {
+    Homogeneous sum{0, 0, 0, 0};
+    for (const Near_point& corner : occluders.polygon(piece)) {
+      const unsigned long weight = 1 + random.below(1u << 20);
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * corner.exact[k];
+    }
+    return near_point(occluders.frame(), sum);
+  };
+  for (int turn = 0; turn < 8; ++turn) {
+    const std::uint32_t a = any_piece(), b = any_piece();
+    const Near_point p = point_of(a), q = point_of(b);
+    const std::vector<std::uint32_t> near = occluders.near_segment(p.near, q.near, 1e-12);
+    for (std::size_t k = 0; k + 1 < near.size(); ++k)
+      require(occluders.rank(near[k]) < occluders.rank(near[k + 1]), "pieces near a segment come by rank");
+    const std::optional<std::uint32_t> blocker = occluders.blocker(p, q, occluders.plane(a), occluders.plane(b));
+    require(!blocker || std::find(near.begin(), near.end(), *blocker) != near.end(),
+            "what blocks a segment is near it");
+  }
+}
+
 inline void weak_parts(std::string_view bytes) {
   Bytes from(bytes);
-  const bool rays = from.below(4) == 0;
+  const std::size_t kind = from.below(6);
   generate::Random random(from.word());
-  if (rays) try_axis_rays(random);
+  if (kind == 0) try_axis_rays(random);
+  else if (kind == 1) try_segments(random);
   else try_parts_of_a_pair(random);
 }
 
