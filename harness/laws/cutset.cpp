@@ -131,7 +131,8 @@ Subject cutset() {
                        });
                      }},
                     front_door_check(tracked_by_front_door)};
-  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
+  add_laws(subject,
+           {"begin", "permute", "translate", "scale", "rotate", "stretch", "project", "mirror", "cut", "bystander"});
   return subject;
 }
 

@@ -107,7 +107,7 @@ Subject graph() {
       {"explicit", "the same components from all arcs",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_explicit(posed, answer); }},
       front_door_check(grouped_by_front_door)};
-  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "stretch", "project", "mirror", "turn"});
   // Last: others keep their random choices.
   for (const Check& check : {region_check(), rays_check(), pixels_check(), splits_check()})
     subject.checks.push_back(check);

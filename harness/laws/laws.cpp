@@ -93,6 +93,38 @@ std::optional<Image> rotated(const Posed_scene& scene, Random& random) {
   });
 }
 
+std::optional<Image> stretched(const Posed_scene& scene, Random& random) {
+  constexpr std::size_t few_faces = 40;
+  const std::int64_t most = scene.soup.face_count() <= few_faces && random.chance(1, 4) ? 1200
+                            : random.chance(1, 3)                                       ? 60
+                                                                                        : 6;
+  Exact_point factors;
+  for (Rational& factor : factors) factor = generate::power_of_two(static_cast<int>(random.between(-most, most)));
+  const std::size_t from = random.below(3), to = (from + 1 + random.below(2)) % 3;
+  const Rational shear = static_cast<long>(random.between(-2, 2));
+  return moved_by(scene, [&](Exact_point p) {
+    p[to] += shear * p[from];
+    for (std::size_t k = 0; k < 3; ++k) p[k] *= factors[k];
+    return p;
+  });
+}
+
+std::optional<Image> projected(const Posed_scene& scene, Random& random) {
+  constexpr std::size_t most_points = 16;  // each brings a denominator of its own
+  if (scene.soup.point_count() > most_points || !random.chance(1, 4)) return std::nullopt;
+  const Exact_point slope = generate::lattice(random, 3);
+  Rational least = std::min<Rational>(0, dot(slope, scene.eye));  // at the origin, too: so no face is turned over
+  for (const Exact_point& p : scene.source) least = std::min<Rational>(least, dot(slope, p));
+  for (Point_id p = 0; p < scene.soup.point_count(); ++p)
+    least = std::min<Rational>(least, dot(slope, scene.soup.point(p)));
+  const Rational offset = static_cast<long>(random.between(1, 4)) - least;
+  return moved_by(scene, [&](Exact_point p) {
+    const Rational depth = offset + dot(slope, p);
+    for (Rational& x : p) x /= depth;
+    return p;
+  });
+}
+
 std::optional<Image> mirrored(const Posed_scene& scene, Random& random) {
   const std::size_t axis = random.below(3);
   const bool swaps = random.chance(1, 2);  // two axes, instead of turning one round
@@ -172,6 +204,10 @@ const std::vector<Law>& laws() {
       {"translate", "moved by integers up to 10^8", everywhere, translated},
       {"scale", "scaled by a power of two from 2^-60 to 2^60", everywhere, scaled},
       {"rotate", "turned by a rational rotation", planar_only, rotated},
+      {"stretch", "each axis scaled by a power of two of its own, 2^-1200 to 2^1200, and sheared", planar_only,
+       stretched},
+      {"project", "by a projective map that keeps all before the horizon, one of up to 16 points in four", planar_only,
+       projected},
       {"mirror", "mirrored, faces turned back", planar_only, mirrored},
       {"turn", "all faces turned round: fronts are backs", everywhere, turned},
       {"cut", "a convex face cut in two", everywhere, cut},

@@ -65,6 +65,11 @@ std::optional<Image> permuted(const Posed_scene& scene, Random& random);
 std::optional<Image> translated(const Posed_scene& scene, Random& random);
 std::optional<Image> scaled(const Posed_scene& scene, Random& random);
 std::optional<Image> rotated(const Posed_scene& scene, Random& random);
+/// Each axis by a power of two of its own, at times one that takes doubles beyond their exponents, and sheared.
+std::optional<Image> stretched(const Posed_scene& scene, Random& random);
+/// By a projective map that keeps all of a small scene before what it takes to infinity, so that segments stay
+/// segments. Nothing for larger ones, whose denominators would have no end, and for three in four.
+std::optional<Image> projected(const Posed_scene& scene, Random& random);
 std::optional<Image> mirrored(const Posed_scene& scene, Random& random);
 /// All faces turned round. Pre: answers tell fronts from backs by bits 1 and 2, or not at all.
 std::optional<Image> turned(const Posed_scene& scene, Random&);

@@ -231,7 +231,8 @@ Subject order() {
          return by_kernel<CGAL::Cartesian<CGAL::Gmpq>>(posed, answer, "gmpq");
        }},
       front_door_check(ordered_by_front_door)};
-  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "stretch", "project", "mirror", "turn", "cut",
+                     "bystander"});
   // Last: others keep their random choices.
   for (const Check& check : {points_check(), first_hit_check(), parts_check(), face_graph_check()})
     subject.checks.push_back(check);

@@ -99,7 +99,8 @@ Subject see() {
                     front_door(),
                     lines_check(),
                     field_check()};
-  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "stretch", "project", "mirror", "turn", "cut",
+                     "bystander"});
   for (Check check : {see_budget_check(), moving_eye_check(),
                       round_faces_check(subject.verified, 120, 24)})  // last: others keep their random choices
     subject.checks.push_back(std::move(check));

@@ -308,7 +308,8 @@ Subject shadow() {
   subject.what = "lit and dark parts of faces by a point and by suns, by rays and by what an eye sees";
   subject.answer = labels;
   subject.checks = {by_definition(), as_seen(), by_volume()};
-  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "stretch", "project", "mirror", "turn", "cut",
+                     "bystander"});
   subject.checks.push_back(manners_check(questions_of_shadow()));
   return subject;
 }

@@ -346,7 +346,8 @@ Subject boolean() {
       check_of_solids(
           "rounding", "rounded results are closed, and where they are said to be sound, solids with the same inside",
           [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_rounding(solids, random); })};
-  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut"});
+  add_laws(subject,
+           {"begin", "permute", "translate", "scale", "rotate", "stretch", "project", "mirror", "turn", "cut"});
   subject.checks.push_back(judged_solids_check());
   subject.checks.push_back(check_of_solids(
       "results", "the result is accepted however its faces are told, and no other one is",

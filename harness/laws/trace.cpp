@@ -364,7 +364,7 @@ Subject trace() {
   subject.what = "what rays meet, first and at all, by boxes, by a BSP tree and by the definition";
   subject.answer = labels;
   subject.checks = {by_definition(), by_tree(), in_doubles(), as_seen()};
-  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "stretch", "mirror", "turn"});
   subject.checks.push_back(by_front_door());  // last: others keep their random choices
   subject.checks.push_back(judged_rays_check());
   subject.checks.push_back(from_beyond_doubles());

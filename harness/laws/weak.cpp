@@ -153,7 +153,8 @@ Subject weak() {
        [](const Posed_scene& posed, const Answer& answer, Random&) { return grown(posed, answer); }},
       {"reverse", "source and target in each other's place", weak_subject::reversed},
       front_door_check(weakly_seen_by_front_door)};
-  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
+  add_laws(subject,
+           {"begin", "permute", "translate", "scale", "rotate", "stretch", "project", "mirror", "cut", "bystander"});
   subject.checks.push_back(
       {"shafts", "the same faces by events in parts of shafts",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer, 0); }});
