@@ -66,6 +66,55 @@ inline void try_wide_faces(generate::Random& random) {
   require((dot(known, n) < 0) == plane.flipped(), "a piece's plane has its sense");
 }
 
+/// Asks a tracer for what a ray meets, exactly and in doubles.
+inline void require_met(const Polygon_soup& soup, const Scene& scene, const Ray_tracer& tracer, const Exact_ray& ray,
+                        Ray_start start) {
+  Ray_counters counters;
+  const std::vector<Face_hit> all = harness::hits_by_definition(soup, scene, ray, start);
+  require(tracer.all(ray, start, counters) == all, "a ray meets what it does by the definition");
+  require(tracer.first(ray, start, counters) == only_first(all), "a ray meets first what it does by the definition");
+  const Double_ray doubles = in_doubles(ray);
+  if (!is_ray(doubles)) return;
+  const std::vector<Face_hit> hits = only_first(harness::hits_by_definition(soup, scene, doubles.exact(), start));
+  const Ray_tracer::Nearest near = tracer.nearest(doubles, start, counters);
+  require((near.face == Ray_tracer::Nearest::nothing) == hits.empty(), "doubles meet something iff it is there");
+  if (hits.empty()) return;
+  require(near.face == hits[0].face && near.side == hits[0].side && near.tied == (hits.size() > 1),
+          "doubles meet what is there");
+  require((!std::isfinite(near.low) || exact(near.low) <= hits[0].t) &&
+              (!std::isfinite(near.high) || hits[0].t <= exact(near.high)),
+          "doubles know where it is");
+}
+
+/// Triangles of whole numbers of which an edge passes an axis as closely as these can, and rays along it that begin at
+/// a fraction of any length: what of them fits into words, and what does not.
+inline void try_fine_rays(generate::Random& random) {
+  const std::size_t axis = random.below(3), u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const std::int64_t far = std::int64_t{1} << random.between(4, 50);
+  const auto any = [&] { return Rational(static_cast<long>(random.between(-far, far))); };
+  const auto little = [&] { return Rational(static_cast<long>(random.between(-1, 1))); };
+  Polygon_soup soup;
+  for (Point_id k = 0; k < 9; k += 3) {
+    std::array<Exact_point, 3> corners;
+    for (Exact_point& p : corners)
+      for (Rational& x : p) x = any();
+    corners[1][u] = little() - corners[0][u];
+    corners[1][v] = little() - corners[0][v];
+    for (const Exact_point& p : corners) soup.add_point(p[0], p[1], p[2]);
+    soup.add_face({k, k + 1, k + 2});
+  }
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  for (std::size_t turn = 0; turn < 4; ++turn) {
+    Exact_ray ray{{0, 0, 0}, {0, 0, 0}};
+    const auto bits = static_cast<int>(random.between(0, 62));
+    for (Rational& x : ray.origin)
+      if (random.chance(1, 2)) x = static_cast<long>(random.between(-64, 64)) * generate::power_of_two(-bits);
+    ray.direction[axis] = random.chance(1, 2) ? 1 : -1;
+    require_met(soup, scene, tracer, ray, random.chance(1, 2) ? Ray_start::open : Ray_start::closed);
+  }
+}
+
 /// Few triangles, as large or as small as doubles are or beyond that, and rays to them of any length from anywhere.
 inline void try_far_rays(generate::Random& random) {
   const auto power = [&]() -> Rational {
@@ -118,20 +167,7 @@ inline void try_far_rays(generate::Random& random) {
               "a ray in doubles without a direction is refused");
       continue;
     }
-    const std::vector<Face_hit> all = harness::hits_by_definition(soup, scene, ray, start);
-    require(tracer.all(ray, start, counters) == all, "a ray meets what it does by the definition");
-    require(tracer.first(ray, start, counters) == only_first(all), "a ray meets first what it does by the definition");
-    const Double_ray doubles = in_doubles(ray);
-    if (!is_ray(doubles)) continue;
-    const std::vector<Face_hit> hits = only_first(harness::hits_by_definition(soup, scene, doubles.exact(), start));
-    const Ray_tracer::Nearest near = tracer.nearest(doubles, start, counters);
-    require((near.face == Ray_tracer::Nearest::nothing) == hits.empty(), "doubles meet something iff it is there");
-    if (hits.empty()) continue;
-    require(near.face == hits[0].face && near.side == hits[0].side && near.tied == (hits.size() > 1),
-            "doubles meet what is there");
-    require((!std::isfinite(near.low) || exact(near.low) <= hits[0].t) &&
-                (!std::isfinite(near.high) || hits[0].t <= exact(near.high)),
-            "doubles know where it is");
+    require_met(soup, scene, tracer, ray, start);
   }
 }
 
@@ -181,9 +217,10 @@ inline void try_told(generate::Random& random) {
 
 inline void limits(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(3);
+  const std::size_t kind = from.below(4);
   generate::Random random(from.word());
   if (kind == 0) try_wide_faces(random);
+  else if (kind == 3) try_fine_rays(random);
   else if (kind == 1) try_far_rays(random);
   else try_told(random);
 }
