@@ -66,10 +66,11 @@ Outcome run(const Posed_scene& posed, const Answer& answer, Random& random) {
     }
   }
 
-  // 2. Events of what is open, or of its parts, where few enough edges are near.
-  std::size_t most_edges = random.below(40);
+  // 2. Events of what is open, or of its parts, where few enough edges are near: often just fewer than are near all of
+  // a pair, so that they may be enough for its cells.
+  std::size_t most_edges = random.chance(1, 8) ? 0 : random.below(40);
   const std::size_t most_asks = random.chance(1, 3) ? random.below(300) : 20000;
-  if (random.chance(1, 2))  // just fewer than are near all of a pair, so that they may be enough for its cells
+  if (most_edges > 0 && random.chance(1, 2))
     most_edges = edges_between(occluders, sources[0], found.open[0].piece) - std::size_t{1 + random.below(4)};
   const bool is_whole = std::all_of(found.open.begin(), found.open.end(), [&](const Weakly_visible::Pair& open) {
     return edges_between(occluders, sources[0], open.piece) <= most_edges;
@@ -81,7 +82,8 @@ Outcome run(const Posed_scene& posed, const Answer& answer, Random& random) {
   events.out_of_time = [&] { return ++asks > most_asks; };
   events.progress = [&](std::size_t done, std::size_t all) { told += done <= all; };
   const std::size_t open_before = found.open.size();
-  settle_by_events(occluders, sources, most_edges, events, found);
+  const Event_counters counters = settle_by_events(occluders, sources, most_edges, events, found);
+  if (most_edges == 0 && counters.targets > 0) return Outcome::failed("events are asked though no edges may be near");
   if (told > open_before) return Outcome::failed("events tell more often than there are pairs");
   if (is_whole && asks <= most_asks && !found.undecided.empty())
     return Outcome::failed(face_name(found.undecided[0]) +

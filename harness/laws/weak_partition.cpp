@@ -184,6 +184,28 @@ bool add_bent_face(Polygon_soup& soup, Random& random) {
   return true;
 }
 
+/// A triangle with a corner in the source's plane, and the others on both sides of it: where it goes through that, its
+/// trace has that end. Returns whether it has an area.
+bool add_face_through(const generate::Points& source, Polygon_soup& soup, Random& random) {
+  if (soup.point_count() == 0) return false;
+  const weak_flats::Level level = weak_flats::level_of(source);
+  const Exact_point p = soup.point(static_cast<Point_id>(random.below(soup.point_count())));
+  if (level.side(p) == 0) return false;
+  const Exact_point u = minus(source[1], source[0]), v = minus(source[2], source[0]);
+  const auto any = [&] {
+    const Exact_point from = generate::along(source[0], Rational(generate::integer(random, -2, 4) / 2), u);
+    return generate::along(from, Rational(generate::integer(random, -2, 4) / 2), v);
+  };
+  const auto beside = [&](int sign) {
+    const Exact_point from = any();
+    return generate::along(from, Rational(sign * generate::integer(random, 1, 4) / 2), minus(p, from));
+  };
+  const Exact_point a = any(), b = beside(1), c = beside(-1);
+  if (is_zero(cross(minus(b, a), minus(c, a)))) return false;
+  soup.add_face(generate::added(soup, generate::either_way({a, b, c}, random)));
+  return true;
+}
+
 /// A source turned round, or a piece of a scene as one, either way round.
 generate::Points other_source(const generate::Points& source, const Scene& scene, std::uint32_t but, Random& random) {
   const auto piece = static_cast<std::size_t>(random.below(scene.pieces().size()));
@@ -200,14 +222,15 @@ Check partition_check() {
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_pieces = 10;
             Polygon_soup soup = posed.soup;
-            const bool is_bent = random.chance(1, 4) && add_bent_face(soup, random);
+            const bool is_bent = random.chance(1, 4) && add_bent_face(soup, random),
+                       is_through = random.chance(1, 4) && add_face_through(posed.source, soup, random);
             const Scene scene(soup);
             constexpr int most_bits = 100;  // an arrangement's roots have some fifty times as many
             if (scene.pieces().empty() || scene.pieces().size() > most_pieces || scene.bits() > most_bits)
               return Outcome::not_applicable();
-            const Face_id face =
-                is_bent ? scene.pieces().back().face : scene.pieces()[random.below(scene.pieces().size())].face;
-            if (!is_bent && answer.labels[face] == Answer::none) return Outcome::not_applicable();
+            const auto given = static_cast<Face_id>(posed.soup.face_count());
+            const Face_id face = is_bent ? given : scene.pieces()[random.below(scene.pieces().size())].face;
+            if (!is_bent && (face >= given || answer.labels[face] == Answer::none)) return Outcome::not_applicable();
             const Occluders occluders(scene);
             const Weak_source source = weak_source(occluders, posed.source);
             const Light_partitioner partitioner(scene);
@@ -242,9 +265,10 @@ Check partition_check() {
               if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
               pieces.push_back(partition);
             }
+            if (pieces.empty()) return Outcome::not_applicable();  // it was set aside
             const std::string flaw = flaw_of_shares(scene, pieces);
             if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
-            if (is_bent) return Outcome{};  // of which no answer is known
+            if (is_bent || is_through) return Outcome{};  // of which no answer is known
             if (some_light ? answer.labels[face] == 1 : !open && answer.labels[face] == 0) return Outcome{};
             if (!some_light && open) return Outcome::undecided();
             return Outcome::failed(face_name(face) + (some_light ? " has light in its partition, but is hidden"
@@ -257,11 +281,15 @@ Check outline_check() {
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_pieces = 8;
             constexpr int most_bits = 64;
-            const Scene scene(posed.soup);
+            Polygon_soup soup = posed.soup;
+            if (random.chance(1, 4)) add_face_through(posed.source, soup, random);
+            const Scene scene(soup);
             if (scene.pieces().empty() || scene.pieces().size() > most_pieces || scene.bits() > most_bits)
               return Outcome::not_applicable();
             const auto piece = static_cast<std::uint32_t>(random.below(scene.pieces().size()));
-            if (answer.labels[scene.pieces()[piece].face] == Answer::none) return Outcome::not_applicable();
+            if (const Face_id face = scene.pieces()[piece].face;
+                face >= posed.soup.face_count() || answer.labels[face] == Answer::none)
+              return Outcome::not_applicable();
             std::size_t asked = 0;
             Partition_options options;
             options.all_borders = random.chance(1, 2);

@@ -5,6 +5,7 @@
 #include "active_subranges.h"
 #include "arcs.h"
 #include "bsp_queries.h"
+#include "cell_proofs.h"
 #include "certificate.h"
 #include "certificate_forms.h"
 #include "conics.h"
@@ -96,6 +97,7 @@ inline const std::vector<Target>& targets() {
                                        {"single_parts", single_parts, {}},
                                        {"weak_parts", weak_parts, {}},
                                        {"one_edge", one_edge, {}},
+                                       {"cell_proofs", cell_proofs, {}},
                                        {"light_work", light_work, {}},
                                        {"limits", limits, {}},
                                        {"certificate_forms", certificate_forms, {}},

@@ -321,6 +321,29 @@ TEST(Event_surfaces, are_kept_for_faces_that_are_visible_too_and_touch_edges) {
   EXPECT_GT(by_plate, 1u);
 }
 
+TEST(Event_surfaces, are_kept_however_narrow_they_are) {
+  // Of the lines through a corner and a long edge, those from a small source.
+  const Rational half_width(Integer(1), Integer(1) << 70);
+  const Points edge_above{at(-1, 0, 1), at(1, 0, 1), at(0, 2, 1)};
+  const Exact_point corner = at(0, 0, Rational(3, 2));
+  const Scene scene(generate::soup_of({reversed(rectangle(-4, 4, -4, 4, 2)),
+                                       edge_above,
+                                       {corner, at(1, 1, Rational(3, 2)), at(-1, 1, Rational(3, 2))}}));
+  const Occluders occluders(scene);
+  Events_options options;
+  options.surfaces = true;
+  const Weakly_visible_by_events found = weakly_visible_by_events(
+      occluders, {weak_source(occluders, rectangle(-half_width, half_width, -half_width, half_width, 0))}, options);
+  const auto is_through_both = [&](const Event_surface& surface) {
+    return surface.piece == 0 && std::all_of(surface.rulings.begin(), surface.rulings.end(), [&](const auto& ruling) {
+             const auto& [p, q] = ruling;
+             return abs(p[0]) <= half_width && is_zero(cross(minus(q, p), minus(corner, p))) &&
+                    side_of_line(p, q, edge_above[0], edge_above[1]) == 0;
+           });
+  };
+  EXPECT_TRUE(std::any_of(found.surfaces.begin(), found.surfaces.end(), is_through_both));
+}
+
 // ---- Solids that look
 
 Faces box(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z0,

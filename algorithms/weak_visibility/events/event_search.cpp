@@ -398,10 +398,22 @@ void Event_search::confirm(const Event_chart& chart, const Event_move& move) {
 
 void Event_search::keep_surface(const Event_curve& curve, const Parameter_range& range) {
   constexpr long rows = 8;
+  // 1. Fractions within the range, of as many bits as it needs.
+  if (!(range.low < range.high)) return;
+  unsigned long bits = 60;
+  Integer low, high;
+  for (;; bits *= 2) {
+    low = range.low.bits(bits) + 2;
+    high = range.high.bits(bits) - 1;
+    if (high - low >= rows) break;
+  }
+
+  // 2. Lines there.
   Surface surface{curve.kind(), {}};
-  const Rational low(range.low.bits(60) + 2, Integer(1) << 60), high(range.high.bits(60) - 1, Integer(1) << 60);
-  for (long k = 0; k <= rows && low < high; ++k) {
-    const Event_chart chart = curve.chart(Rational(low + (high - low) * k / rows));
+  for (long k = 0; k <= rows; ++k) {
+    Rational s(low * rows + (high - low) * k, Integer(rows) << bits);
+    s.canonicalize();
+    const Event_chart chart = curve.chart(s);
     const Exact_pluecker line = join(chart.v, chart.w);
     Homogeneous p = meet(scene_->source_plane().exact, line), q = meet(scene_->target_plane().exact, line);
     if (sgn(p[3]) != 0 && sgn(q[3]) != 0) surface.rulings.push_back({p, q});

@@ -30,7 +30,11 @@ struct Multiplier {
 /// errors. Proof: P-71
 class Cell_proofs {
  public:
-  enum class Relaxation { empty, has_room, unclear };
+  enum class Relaxation {
+    empty,
+    has_room,  ///< by the basis that doubles ended with, which in thin cells may be a wrong one: no proof
+    unclear
+  };
 
   Cell_proofs(const Occluders& occluders, const Edge_lines& lines, const Near_plane& source_plane,
               const Near_plane& target_plane, std::function<bool()> out_of_time = {})
