@@ -4,6 +4,8 @@
 
 #include <mpfr.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 namespace sightline {
@@ -31,6 +33,21 @@ double nearest_double(const Rational& value) {
   mpfr_subnormalize(rounded, order, MPFR_RNDN);
   mpfr_set_emin(least);
   return mpfr_get_d(rounded, MPFR_RNDN);
+}
+
+Rational times_power(Rational x, long exponent) {
+  if (exponent >= 0) mpq_mul_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  else mpq_div_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  return x;
+}
+
+double square_root(const Rational& square) {
+  // Near 1, so that nothing is lost of what is rounded.
+  const long half =
+      (static_cast<long>(bit_length(square.get_num())) - static_cast<long>(bit_length(square.get_den()))) / 2;
+  constexpr long beyond = 5000;
+  return std::ldexp(std::sqrt(nearest_double(times_power(square, -2 * half))),
+                    static_cast<int>(std::clamp(half, -beyond, beyond)));
 }
 
 Rational rational_from_string(std::string_view text) {

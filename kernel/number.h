@@ -37,6 +37,13 @@ Rational exact_decimal(const Integer& mantissa, long exponent);
 /// range. (GMP's own get_d truncates.) Exact: yes.
 double nearest_double(const Rational& value);
 
+/// x 2^exponent. Exact: yes.
+Rational times_power(Rational x, long exponent);
+
+/// The root of a rational, wherever doubles hold the root, to two units in its last place; +infinity beyond. Pre: it is
+/// not negative.
+double square_root(const Rational& square);
+
 /// "p" or "p/q", reduced.
 inline std::string to_string(const Rational& value) { return value.get_str(); }
 inline std::string to_string(const Integer& value) { return value.get_str(); }

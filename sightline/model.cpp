@@ -8,8 +8,8 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -18,17 +18,49 @@ namespace {
 
 // ---- Measures: exact vectors, one root at the end
 
-/// The root of a rational in doubles, where that is within their range, to three units in the last place.
-double root(const Rational& square) { return std::sqrt(nearest_double(square)); }
+/// A sum of roots of rationals, each times a sign: within four times 2^-places.
+struct Signed_root {
+  int sign;
+  Rational square;
+};
+Rational sum_of_roots(const std::array<Signed_root, 4>& roots, long places) {
+  Integer sum = 0;
+  for (const Signed_root& root : roots) {
+    const Rational scaled = times_power(root.square, 2 * places);
+    sum += root.sign * Integer(sqrt(Integer(scaled.get_num() / scaled.get_den())));
+  }
+  return times_power(Rational(sum), -places);
+}
 
-/// Of a triangle by Van Oosterom and Strackee's formula: the volume is exact, so thin triangles keep their precision.
+double angle_of_tangent(const Rational& height, const Rational& width) {
+  const Exact_point scaled = scaled_to_one({height, width, 0});
+  return std::atan2(nearest_double(scaled[0]), nearest_double(scaled[1]));
+}
+
+/// Of a triangle by Van Oosterom and Strackee's formula: half of it has a tangent that is a volume over a sum of roots.
+/// The volume is exact, so that thin triangles keep their precision. Where the eye is close to a triangle both may be
+/// close to 0; then the roots are taken to as many places as that needs. Pre: directions to its corners,
+/// scaled_to_one().
 double solid_angle_of(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
-  const double volume = std::fabs(nearest_double(dot(a, cross(b, c))));
-  const double la = root(dot(a, a)), lb = root(dot(b, b)), lc = root(dot(c, c));
-  const double below =
-      la * lb * lc + nearest_double(dot(a, b)) * lc + nearest_double(dot(b, c)) * la + nearest_double(dot(c, a)) * lb;
-  const double angle = 2 * std::atan2(volume, below);
-  return angle < 0 ? angle + 4 * std::numbers::pi : angle;
+  constexpr double large = 0x1p-6;  // of a sum, by its largest term: doubles have it to 2^-46 of itself
+  constexpr long more_places = 60;
+  const Rational volume = abs(dot(a, cross(b, c)));
+  if (volume == 0) return 0;
+  const Rational aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), ab = dot(a, b), bc = dot(b, c), ca = dot(c, a);
+  const double la = square_root(aa), lb = square_root(bb), lc = square_root(cc), near_volume = nearest_double(volume),
+               below = la * lb * lc + nearest_double(ab) * lc + nearest_double(bc) * la + nearest_double(ca) * lb;
+  double half = std::atan2(near_volume, below);
+  if (std::hypot(near_volume, below) < large * la * lb * lc) {
+    const std::array<Signed_root, 4> roots{
+        {{1, aa * bb * cc}, {sgn(ab), ab * ab * cc}, {sgn(bc), bc * bc * aa}, {sgn(ca), ca * ca * bb}}};
+    for (long places = 2 * more_places;; places *= 2) {
+      const Rational sum = sum_of_roots(roots, places);
+      if (std::max(volume, Rational(abs(sum))) < times_power(Rational(1), more_places - places)) continue;
+      half = angle_of_tangent(volume, sum);
+      break;
+    }
+  }
+  return 2 * half;
 }
 
 void require_index(std::uint32_t index, std::size_t count) {
@@ -59,13 +91,14 @@ double Part::area() const {
     const Exact_point part = cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0]));
     for (std::size_t k = 0; k < 3; ++k) twice[k] += part[k];
   }
-  return root(dot(twice, twice)) / 2;
+  return square_root(dot(twice, twice)) / 2;
 }
 
 double Part::solid_angle(const Exact_point& eye) const {
+  std::vector<Exact_point> rays;
+  for (const Exact_point& p : corners) rays.push_back(scaled_to_one(minus(p, eye)));
   double sum = 0;
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
-    sum += solid_angle_of(minus(corners[0], eye), minus(corners[i], eye), minus(corners[i + 1], eye));
+  for (std::size_t i = 1; i + 1 < rays.size(); ++i) sum += solid_angle_of(rays[0], rays[i], rays[i + 1]);
   return sum;
 }
 

@@ -53,8 +53,9 @@ struct Part {
   std::uint32_t piece;  ///< of the face, 0 for a convex one
   std::vector<Exact_point> corners;
 
-  double area() const;                               ///< to about 2^-50
-  double solid_angle(const Exact_point& eye) const;  ///< in steradians, of 4 pi
+  double area() const;  ///< to about 2^-50
+  /// In steradians, of 4 pi; to about 2^-44 of itself, as far as doubles hold it. 0 for an eye in its plane.
+  double solid_angle(const Exact_point& eye) const;
 };
 
 /// What a scene is made of, and the arithmetic that it takes.

@@ -21,12 +21,6 @@ double near_quotient(const Integer& p, const Integer& w, long exponent) {
   return sgn(p) < 0 ? -size : size;
 }
 
-Rational times_power(Rational x, long exponent) {
-  if (exponent >= 0) mpq_mul_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-  else mpq_div_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-  return x;
-}
-
 double Near_frame::rest(const Integer& p, const Integer& w, double near) const {
   if (near == 0 || !std::isfinite(near)) return 0;
   // near = mantissa 2^e; what is left of p / (w 2^shift), over the same.

@@ -20,9 +20,6 @@ namespace sightline {
 /// quotient of 63 or 64 bits, rounded. Pre: w > 0.
 double near_quotient(const Integer& p, const Integer& w, long exponent);
 
-/// x 2^exponent. Exact: yes.
-Rational times_power(Rational x, long exponent);
-
 /// Coordinates for doubles: the grid divided by a scale of the scene's own, a divisor and a power of two, so that those
 /// of the scene's points are at most 1/2, and the bound of them at least 1/8. Those of a source are what they are.
 class Near_frame {

@@ -19,11 +19,13 @@ std::size_t Screen_sizes::measured() const { return std::accumulate(counts.begin
 
 /// The largest angle between corners of a part, as the eye sees them.
 static double length_of(const Part& part, const Exact_point& eye) {
+  std::vector<Exact_point> rays;
+  for (const Exact_point& p : part.corners) rays.push_back(scaled_to_one(minus(p, eye)));
   double length = 0;
-  for (const Exact_point& corner : part.corners)
-    for (const Exact_point& other : part.corners) {
-      const Exact_point a = minus(corner, eye), b = minus(other, eye), across = cross(a, b);
-      length = std::max(length, std::atan2(std::sqrt(nearest_double(dot(across, across))), nearest_double(dot(a, b))));
+  for (const Exact_point& a : rays)
+    for (const Exact_point& b : rays) {
+      const Exact_point across = cross(a, b);
+      length = std::max(length, std::atan2(square_root(dot(across, across)), nearest_double(dot(a, b))));
     }
   return length;
 }
@@ -49,7 +51,7 @@ std::map<Face_id, Seen_face> seen_faces(const Model& model, const Exact_point& e
   for (const auto& [face, of_face] : largest) {
     Seen_face& found = faces[face];
     const std::vector<Exact_point>& corners = of_face.part->corners;
-    found.width = of_face.angle / length_of(*of_face.part, eye);
+    found.width = of_face.angle > 0 ? of_face.angle / length_of(*of_face.part, eye) : 0;  // 0: less than doubles hold
     found.middle = {0, 0, 0};
     for (const Exact_point& corner : corners)
       for (std::size_t k = 0; k < 3; ++k) found.middle[k] += corner[k] / static_cast<long>(corners.size());

@@ -157,9 +157,10 @@ struct Images {
 /// The exact visible surface, ready to be compared with: answers to the same question by other means, over the whole
 /// sphere. All areas are measured in doubles, on the six images of a cube around the eye: solid angles of polygons
 /// whose corners are rounded to about 2^-50 of an image. What is narrower than 2^-46 counts as no difference, so that
-/// equal answers differ by 0, or by some 10^-17 where parts are about that narrow; a wrong area is right to about 2^-48
-/// for each part that it is made of. Nothing else is rounded: which faces are visible, and who is seen in a part, is
-/// exact. Pre: the view and its scene outlive it; the surface covers the whole sphere.
+/// equal answers differ by 0, or by some 10^-17 where parts are about that narrow, and 10^-12 where an edge is so short
+/// that its line is off by as much; a wrong area is right to about 2^-48 for each part that it is made of. Nothing else
+/// is rounded: which faces are visible, and who is seen in a part, is exact. Pre: the view and its scene outlive it;
+/// the surface covers the whole sphere.
 class Visible_reference {
  public:
   Visible_reference(Exact_view&&, const Visible_surface<Exact_view>&) = delete;

@@ -69,21 +69,8 @@ bool has_area(const Polygon& polygon) {
   return polygon.size() > 2 && !certificate_check::is_zero(newell_normal(polygon));
 }
 
-double length(const Exact_point& v) { return std::sqrt(nearest_double(dot(v, v))); }
-
-/// In steradians, by Van Oosterom and Strackee's formula for each triangle; the volumes are exact.
-double solid_angle(const Polygon& polygon, const Exact_point& eye) {
-  double sum = 0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Exact_point a = minus(polygon[0], eye), b = minus(polygon[i], eye), c = minus(polygon[i + 1], eye);
-    const double la = length(a), lb = length(b), lc = length(c);
-    const double below =
-        la * lb * lc + nearest_double(dot(a, b)) * lc + nearest_double(dot(b, c)) * la + nearest_double(dot(c, a)) * lb;
-    const double angle = 2 * std::atan2(std::fabs(nearest_double(dot(a, cross(b, c)))), below);
-    sum += angle < 0 ? angle + 4 * std::numbers::pi : angle;
-  }
-  return sum;
-}
+/// Of which areas and solid angles are asked.
+Part part_of(const Polygon& polygon) { return {0, 0, polygon}; }
 double share_of_directions(double angle) { return angle / (4 * std::numbers::pi); }
 
 // ---- A scene in convex pieces
@@ -188,7 +175,7 @@ Explanation explain_seen(const Polygon_soup& soup, const Query& query, const Gra
   std::optional<Refutation> of_missing;
   for (const Face_id face : grade.wrong_hidden)
     for (const Polygon& part : parts_on(pieces, face, seen, query.two_sided)) {
-      const double angle = solid_angle(part, query.eye);
+      const double angle = part_of(part).solid_angle(query.eye);
       missing += angle;
       if (angle <= largest) continue;
       largest = angle;
@@ -204,7 +191,7 @@ Explanation explain_seen(const Polygon_soup& soup, const Query& query, const Gra
   double shown = 0;
   for (const Flat_piece& piece : pieces)
     if (std::binary_search(grade.wrong_visible.begin(), grade.wrong_visible.end(), piece.face))
-      shown += solid_angle(piece.corners, query.eye);
+      shown += part_of(piece.corners).solid_angle(query.eye);
   std::optional<Refutation> of_shown;
   for (std::size_t k = 0; k < grade.wrong_visible.size() && !of_shown; ++k)
     of_shown = hidden_face(pieces, query.eye, grade.wrong_visible[k], query.two_sided, "the eye");
@@ -247,7 +234,7 @@ Explanation explain_order(const Polygon_soup& soup, const Query& query, const An
     left_out = left_out || in_parts[earlier] || in_parts[later];
     if (in_parts[earlier] || in_parts[later]) continue;
     for (const Polygon& part : nearer(pieces, earlier, later, query.eye)) {
-      const double angle = solid_angle(part, query.eye);
+      const double angle = part_of(part).solid_angle(query.eye);
       wrong += angle;
       if (angle <= largest) continue;
       largest = angle;
@@ -271,15 +258,6 @@ Explanation explain_order(const Polygon_soup& soup, const Query& query, const An
   why.share_words = percent(why.share) + " of all directions are drawn in the wrong order, summed over pairs" +
                     (left_out ? ", without faces drawn in parts" : "");
   return why;
-}
-
-double area(const Polygon& polygon) {
-  Exact_point twice{0, 0, 0};
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Exact_point part = cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
-    for (std::size_t k = 0; k < 3; ++k) twice[k] += part[k];
-  }
-  return length(twice) / 2;
 }
 
 /// A sightline to one of the faces, proved.
@@ -334,8 +312,9 @@ Explanation explain_weak(const Polygon_soup& soup, const Query& query, const Gra
   };
   for (const Flat_piece& piece : pieces) {
     if (holds(answer.abstained, piece.face)) continue;
-    all += area(piece.corners);
-    if (holds(grade.wrong_visible, piece.face) || holds(grade.wrong_hidden, piece.face)) wrong += area(piece.corners);
+    all += part_of(piece.corners).area();
+    if (holds(grade.wrong_visible, piece.face) || holds(grade.wrong_hidden, piece.face))
+      wrong += part_of(piece.corners).area();
   }
   why.share = all > 0 ? wrong / all : 0;
   why.share_words = percent(why.share) + " of the area that is answered for is of wrong faces";

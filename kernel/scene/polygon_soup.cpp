@@ -2,9 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace sightline {
+
+Exact_point scaled_to_one(Exact_point v) {
+  std::optional<long> largest;  // 2^largest and less than four times as much
+  for (const Rational& x : v) {
+    if (sgn(x) == 0) continue;
+    const long size = static_cast<long>(bit_length(x.get_num())) - static_cast<long>(bit_length(x.get_den())) - 1;
+    largest = std::max(largest.value_or(size), size);
+  }
+  if (largest)
+    for (Rational& x : v) x = times_power(std::move(x), -(*largest + 2));
+  return v;
+}
 
 Point_id Polygon_soup::add_point(const Rational& x, const Rational& y, const Rational& z) {
   coordinates.push(x);

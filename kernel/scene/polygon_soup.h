@@ -18,6 +18,10 @@ using Point_id = std::uint32_t;
 using Face_id = std::uint32_t;  ///< 0-based place of a face in the input
 using Exact_point = std::array<Rational, 3>;
 
+/// A vector times a power of two: its largest coordinate is between 1/4 and 1, so that doubles can tell what depends on
+/// directions alone. Degenerate: zero stays zero. Exact: yes
+Exact_point scaled_to_one(Exact_point v);
+
 /// A polygon soup. A face is one or more loops of point ids: the first is the outer contour, seen counterclockwise from
 /// the face's front; further loops are holes (either sense). Repeated points, non-planar, concave and zero-area faces
 /// are all welcome, and points may be unused. A face may be added before its points: check_corners() sees whether they

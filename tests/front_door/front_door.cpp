@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -166,6 +167,38 @@ TEST(See, from_inside_a_cube_turned_inwards_all_of_it_shares_out_the_sphere) {
   double sum = 0;
   for (Face_id face = 0; face < 6; ++face) sum += aside.solid_angle(face);
   EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-12);
+}
+
+/// [-1, 1]^2 at height 0, its corners times a power of two.
+Part square_part(long power) {
+  const Rational one = times_power(Rational(1), power);
+  return {0, 0, {{-one, -one, 0}, {one, -one, 0}, {one, one, 0}, {-one, one, 0}}};
+}
+
+TEST(Part, is_as_large_as_it_is_and_looks_at_any_scale_and_distance) {
+  for (const long power : {-1000L, -500L, 0L, 500L, 1000L}) {
+    const Part square = square_part(power);
+    if (std::labs(power) <= 500) EXPECT_EQ(square.area(), std::ldexp(4.0, 2 * static_cast<int>(power))) << power;
+    // From height h above the middle it has 4 atan(1 / (h sqrt(2 + h^2))).
+    for (const long height : {-2000L, -600L, -60L, -40L, -1L, 0L, 3L, 100L, 400L}) {
+      const double h = std::ldexp(1.0, static_cast<int>(height)),
+                   expected = 4 * std::atan2(1, height > 50 ? h * h : h * std::sqrt(2 + h * h));
+      EXPECT_NEAR(square.solid_angle({0, 0, times_power(Rational(1), power + height)}) / expected, 1, 1e-13)
+          << power << ' ' << height;
+    }
+    // As near above a place on the diagonal, which parts it into triangles; above an edge, a corner; and beside it.
+    for (const long height : {-2000L, -600L, -60L}) {
+      const auto from = [&](const Rational& x, const Rational& y) {
+        return square.solid_angle(
+            {times_power(x, power), times_power(y, power), times_power(Rational(1), power + height)});
+      };
+      EXPECT_NEAR(from(Rational(1, 2), Rational(1, 2)), 2 * std::numbers::pi, 1e-12);
+      EXPECT_NEAR(from(1, Rational(1, 3)), std::numbers::pi, 1e-12);
+      EXPECT_NEAR(from(1, 1), std::numbers::pi / 2, 1e-12);
+      EXPECT_NEAR(from(2, 2), 0, 1e-12);
+    }
+    EXPECT_EQ(square.solid_angle({0, 0, 0}), 0) << "in its plane";
+  }
 }
 
 TEST(See, what_is_hidden_has_no_area) {

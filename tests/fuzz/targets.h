@@ -22,6 +22,7 @@
 #include "grid.h"
 #include "light_work.h"
 #include "limits.h"
+#include "measures.h"
 #include "mutate.h"
 #include "one_edge.h"
 #include "only_nonsense.h"
@@ -99,6 +100,7 @@ inline const std::vector<Target>& targets() {
                                        {"one_edge", one_edge, {}},
                                        {"cell_proofs", cell_proofs, {}},
                                        {"light_work", light_work, {}},
+                                       {"measures", measures, {}},
                                        {"limits", limits, {}},
                                        {"certificate_forms", certificate_forms, {}},
                                        {"volumes", volumes, {}},

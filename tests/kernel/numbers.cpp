@@ -88,6 +88,23 @@ TEST(Number, the_ends_of_the_double_range_survive_exact_and_back) {
     for (const double s : {d, -d}) EXPECT_EQ(nearest_double(exact(s)), s) << s;
 }
 
+RC_GTEST_PROP(Number, square_root_of_a_square_is_where_it_was, (std::uint64_t bits)) {
+  const double d = std::fabs(any_double(bits)), root = square_root(exact(d) * exact(d));
+  RC_ASSERT(std::nextafter(d, 0.0) <= root);
+  RC_ASSERT(root <= std::nextafter(d, HUGE_VAL));
+}
+
+TEST(Number, square_root_is_right_beyond_the_squares_that_doubles_hold) {
+  const Rational two = 2;
+  for (const long power : {-1000L, -1L, 0L, 1L, 1020L})
+    EXPECT_NEAR(square_root(times_power(two, 2 * power)) / std::ldexp(std::sqrt(2.0), static_cast<int>(power)), 1,
+                1e-15)
+        << power;
+  EXPECT_EQ(square_root(times_power(two, 4000)), HUGE_VAL);
+  EXPECT_EQ(square_root(times_power(two, -4000)), 0);
+  EXPECT_EQ(square_root(Rational(0)), 0);
+}
+
 RC_GTEST_PROP(Number, nearest_double_reads_decimals_as_strtod_does, (std::int64_t mantissa, std::int16_t power)) {
   const long exponent = power % 360;
   char text[64];
