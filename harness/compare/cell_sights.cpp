@@ -43,13 +43,14 @@ std::vector<Cell_sightline> Cell_sights::sightlines(Cell_id cell, const std::vec
       const Face_id face = scene.pieces()[pair.piece].face;
       const Exact_point through = scene.position(pair.answer.sightline[0].exact),
                         to = scene.position(pair.answer.sightline[1].exact);
-      Exact_point from;  // as far back as doubling the way goes within the cell
-      Rational back(1024);
-      do {
-        back /= 2;
-        for (std::size_t k = 0; k < 3; ++k) from[k] = through[k] + back * (through[k] - to[k]);
-      } while (level_->at(from) != cell);
-      found.emplace(face, Cell_sightline{face, from, to});
+      const auto back_by = [&](const Rational& share) {
+        Exact_point from;
+        for (std::size_t k = 0; k < 3; ++k) from[k] = through[k] + share * (through[k] - to[k]);
+        return from;
+      };
+      Rational share(512);  // as far back as doubling the way goes within the cell, or reaches its wall
+      while (level_->at(back_by(share)) != cell) share /= 2;
+      found.emplace(face, Cell_sightline{face, back_by(share * Rational(3, 4)), to});
     }
   }
 

@@ -29,8 +29,8 @@ class Cell_sights {
 
   /// For each of the faces that the cell sees one sightline, ascending by face: from the cell's middle, the mean of its
   /// corners, where the face is seen from there, or else before the portal that a search finds it through,
-  /// at least half as far back as the line goes within the cell. Pre: faces ascend, and none looks into the cell.
-  /// Degenerate: a face that is hidden has none. Cost: what the middle sees, and a search for each other face and
+  /// at least three eighths as far back as the line goes within the cell. Pre: faces ascend, and none looks into the
+  /// cell. Degenerate: a face that is hidden has none. Cost: what the middle sees, and a search for each other face and
   /// portal. Errors: Out_of_budget.
   std::vector<Cell_sightline> sightlines(Cell_id cell, const std::vector<Face_id>& faces, const Is_over& is_over);
 

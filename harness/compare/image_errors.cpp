@@ -77,16 +77,21 @@ void Mean_errors::add(const Layer& truth, const Layer& made) {
 
 std::vector<double> seen_areas(const Exact_view& view, const Visible_surface<Exact_view>& surface,
                                const Pixel_view& pixels) {
-  const std::array<double, 3> to_right = cross(pixels.up, pixels.look), to_up = cross(pixels.look, pixels.right),
-                              to_look = cross(pixels.right, pixels.up);
+  const auto exactly = [](const std::array<double, 3>& v) {
+    return Exact_point{exact(v[0]), exact(v[1]), exact(v[2])};
+  };
+  const Exact_point right = exactly(pixels.right), up = exactly(pixels.up), look = exactly(pixels.look);
+  const Exact_point to_right = cross(up, look), to_up = cross(look, right), to_look = cross(right, up);
   std::vector<double> areas(view.scene().counters().faces_read);
   for (const auto& part : surface.parts) {
     if (part.piece == surface.nothing) continue;
     std::vector<std::array<double, 2>> corners;
     for (const Exact_view::Ray& ray : surface.of(part)) {
-      const Approximate_vector d = view.approximate(ray);
-      const std::array<double, 3> v{d.x, d.y, d.z};
-      corners.push_back({dot(v, to_right) / dot(v, to_look), dot(v, to_up) / dot(v, to_look)});
+      const std::array<Integer, 3> d = view.direction(ray);
+      const Exact_point v{Rational(d[0]), Rational(d[1]), Rational(d[2])};
+      const Rational depth = dot(v, to_look);
+      corners.push_back(
+          {nearest_double(Rational(dot(v, to_right) / depth)), nearest_double(Rational(dot(v, to_up) / depth))});
     }
     double twice = 0;
     for (std::size_t k = 2; k < corners.size(); ++k) {

@@ -27,10 +27,15 @@ std::vector<Exact_point> a_piece(const Scene& scene, std::uint64_t seed) {
   return points;
 }
 
-bool same_coordinates(const Polygon_soup& a, const Polygon_soup& b) {
+bool are_same(const Polygon_soup& a, const Polygon_soup& b) {
   if (a.coordinates.size() != b.coordinates.size() || a.face_count() != b.face_count()) return false;
   for (std::size_t k = 0; k < a.coordinates.size(); ++k)
     if (a.coordinates[k] != b.coordinates[k]) return false;
+  for (Face_id f = 0; f < a.face_count(); ++f) {
+    if (a.loop_count(f) != b.loop_count(f)) return false;
+    for (std::size_t k = 0; k < a.loop_count(f); ++k)
+      if (!std::ranges::equal(a.loop(f, k), b.loop(f, k))) return false;
+  }
   return true;
 }
 
@@ -91,7 +96,7 @@ void prepare(Case& made, const Case_options& options) {
     made.soup = with_faces_for(made.soup, options);
   }
   made.as_given =
-      same_coordinates(made.soup, given) &&
+      are_same(made.soup, given) &&
       (options.question == Question::weak ? made.query.source == wanted.source : made.query.eye == wanted.eye) &&
       same_rays(made.query.rays, wanted.rays);
 }

@@ -282,6 +282,54 @@ std::optional<Refutation> sightline_to(const Scene& scene, const Query& query, c
                         words_of(line.to) + ": nothing is between"};
 }
 
+/// A line to a face that no point of the source sees: behind the source, or past what hides it from a point of that,
+/// the middle where it tells.
+std::optional<Refutation> weakly_hidden_face(const std::vector<Flat_piece>& pieces, const Query& query, Face_id face) {
+  const Exact_point from = middle(query.source);
+  const certificate_check::Plane plane{newell_normal(query.source), from};
+  const Flat_piece* last = nullptr;
+  bool behind = true;
+  for (const Flat_piece& piece : pieces) {
+    if (piece.face != face) continue;
+    last = &piece;
+    for (const Exact_point& p : piece.corners) behind = behind && plane.side(p) <= 0;
+  }
+  if (last == nullptr) return std::nullopt;
+  if (behind)
+    return Refutation{face, from, middle(last->corners),
+                      {},   {},   face_words(face) + " is behind the source, or in its plane"};
+  for (std::size_t k = 0; k <= query.source.size(); ++k) {
+    Exact_point point = from;
+    if (k > 0)
+      for (std::size_t x = 0; x < 3; ++x) point[x] = (2 * from[x] + query.source[k - 1][x]) / 3;
+    std::optional<Refutation> line = hidden_face(pieces, point, face, query.two_sided,
+                                                 k == 0 ? "the middle of the source" : "a point of the source");
+    if (!line) continue;
+    line->words += "; that no other line reaches it is proved";
+    return line;
+  }
+  return std::nullopt;
+}
+
+/// How large pieces are, the largest about 1, so that doubles hold their sum.
+std::vector<double> areas_of(const std::vector<Flat_piece>& pieces) {
+  std::vector<Exact_point> vectors;
+  Rational largest = 0;
+  for (const Flat_piece& piece : pieces) {
+    Exact_point& sum = vectors.emplace_back(Exact_point{0, 0, 0});
+    for (std::size_t i = 1; i + 1 < piece.corners.size(); ++i) {
+      const Exact_point &origin = piece.corners[0],
+                        part = cross(minus(piece.corners[i], origin), minus(piece.corners[i + 1], origin));
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+    }
+    for (const Rational& x : sum) largest = std::max(largest, Rational(abs(x)));
+  }
+  std::vector<double> areas;
+  for (const Exact_point& vector : vectors)
+    areas.push_back(square_root(Rational(dot(vector, vector) / (largest * largest))));
+  return areas;
+}
+
 Explanation explain_weak(const Polygon_soup& soup, const Query& query, const Grade& grade, const Answer& answer,
                          bool missing_first, double seconds) {
   const Scene scene(soup);
@@ -289,32 +337,19 @@ Explanation explain_weak(const Polygon_soup& soup, const Query& query, const Gra
   Explanation why;
   std::optional<Refutation> of_missing, of_shown;
   if (!grade.wrong_hidden.empty()) of_missing = sightline_to(scene, query, grade.wrong_hidden, seconds);
-  const Exact_point from = middle(query.source);
-  const certificate_check::Plane plane{newell_normal(query.source), from};
-  for (std::size_t k = 0; k < grade.wrong_visible.size() && !of_shown; ++k) {
-    const Face_id face = grade.wrong_visible[k];
-    bool behind = true;
-    for (const Flat_piece& piece : pieces)
-      for (const Exact_point& p : piece.corners) behind = behind && (piece.face != face || plane.side(p) <= 0);
-    of_shown = hidden_face(pieces, from, face, query.two_sided, "the middle of the source");
-    if (behind && of_shown) {
-      of_shown->words = face_words(face) + " is behind the source, or in its plane";
-      of_shown->by.reset();
-      of_shown->at.reset();
-    } else if (of_shown) {
-      of_shown->words += "; that no other line reaches it is proved";
-    }
-  }
+  for (std::size_t k = 0; k < grade.wrong_visible.size() && !of_shown; ++k)
+    of_shown = weakly_hidden_face(pieces, query, grade.wrong_visible[k]);
   why.refutation = of_missing && (missing_first || !of_shown) ? of_missing : of_shown;
   double wrong = 0, all = 0;
   const auto holds = [](const std::vector<Face_id>& faces, Face_id f) {
     return std::binary_search(faces.begin(), faces.end(), f);
   };
-  for (const Flat_piece& piece : pieces) {
-    if (holds(answer.abstained, piece.face)) continue;
-    all += part_of(piece.corners).area();
-    if (holds(grade.wrong_visible, piece.face) || holds(grade.wrong_hidden, piece.face))
-      wrong += part_of(piece.corners).area();
+  const std::vector<double> areas = areas_of(pieces);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Face_id face = pieces[k].face;
+    if (holds(answer.abstained, face)) continue;
+    all += areas[k];
+    if (holds(grade.wrong_visible, face) || holds(grade.wrong_hidden, face)) wrong += areas[k];
   }
   why.share = all > 0 ? wrong / all : 0;
   why.share_words = percent(why.share) + " of the area that is answered for is of wrong faces";

@@ -25,7 +25,8 @@ struct Refutation {
 struct Explanation {
   std::optional<Refutation> refutation;  ///< none where no segment tells, as of parts in an order
   /// Of what is wrong: see, order: the solid angle as a share of all directions, 4 pi; weak: the area of wrong faces as
-  /// a share of all that are judged; trace: of the rays; boolean: of the points. In doubles from exact differences.
+  /// a share of those that are answered for; trace: of the rays; boolean: of the points. In doubles from exact
+  /// differences.
   double share = 0;
   std::string share_words;  ///< one line: what the share is of
 };

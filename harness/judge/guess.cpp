@@ -155,6 +155,7 @@ std::string words_of(std::vector<Neighbour> neighbours, const std::string& exact
   for (const Neighbour& n : neighbours) (n.wrong ? wrong : right).push_back(n);
   if (wrong.empty()) return {};
   const Neighbour &last_wrong = wrong.back(), &farthest = neighbours.back();
+  if (farthest.ulps == 0) return "wrong where it is " + exactly + "; of where it is moved nothing is known";
   if (right.empty())
     return "wrong wherever it is moved, as far as " + distance_words(farthest.ulps) + ": no tolerance explains that";
   if (last_wrong.ulps == 0)
@@ -173,9 +174,11 @@ std::string words_of(std::vector<Neighbour> neighbours, const std::string& exact
   if (beyond != right.end())
     return "wrong when moved by up to " + distance_words(last_wrong.ulps) + side + ", right from " +
            distance_words(beyond->ulps) + " on: a tolerance of a size between, or rounding";
-  const bool all_of_a_side =
-      std::none_of(right.begin(), right.end(), [&](const Neighbour& n) { return n.ulps != 0 && (n.ulps > 0) == one; });
-  if (!side.empty() && all_of_a_side)
+  const auto is_right_moved = [&](bool positive) {
+    return std::any_of(right.begin(), right.end(),
+                       [&](const Neighbour& n) { return n.ulps != 0 && (n.ulps > 0) == positive; });
+  };
+  if (!side.empty() && !is_right_moved(one) && is_right_moved(!one))
     return "wrong when moved" + side + ", as far as " + distance_words(last_wrong.ulps) +
            ", right when moved to the opposite one: no tolerance explains that";
   return "wrong when moved by " + distance_words(last_wrong.ulps) + ", right when moved by " +

@@ -137,8 +137,9 @@ void add_points_anywhere(const Polygon_soup& soup, const Ray_tracer& tracer, con
     for (std::uint32_t operand = 0; operand < 2; ++operand)
       windings.push_back({operand, oracles[operand].winding(at, random)});
     const Exact_point towards = minus(corner(), at);
-    const Face_hit met = tracer.first({at, towards}, Ray_start::open, counters).at(0);
-    points.push_back({at, generate::along(at, met.t, towards), met.face,
+    const std::vector<Face_hit> met = tracer.first({at, towards}, Ray_start::open, counters);
+    if (met.empty()) continue;  // a corner of faces without area
+    points.push_back({at, generate::along(at, met[0].t, towards), met[0].face,
                       is_in_result(query.operation, Inside_rule::positive, windings, 2)});
   }
 }

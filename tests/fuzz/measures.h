@@ -4,11 +4,17 @@
 
 #include "support.h"
 
+#include <sightline/algorithms/baseline/depth_buffer.h>
+#include <sightline/algorithms/image/means.h>
+#include <sightline/algorithms/levels/cells.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/kernels.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
+#include <sightline/harness/compare/cell_sights.h>
 #include <sightline/harness/compare/cut_set_errors.h>
 #include <sightline/harness/compare/flat_polygon.h>
 #include <sightline/harness/compare/image_errors.h>
@@ -17,6 +23,7 @@
 #include <sightline/harness/compare/visible_errors.h>
 #include <sightline/harness/compare/weak_errors.h>
 #include <sightline/harness/generate/families.h>
+#include <sightline/harness/generate/pixel_views.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/flat_faces.h>
@@ -467,6 +474,139 @@ inline void try_visible(Random& random) {
           "a face is missing iff it is seen and no part shows it");
 }
 
+/// Pixels of a cube's sides, whatever they show: measured as pixels, and as cones.
+inline void try_cube_pixels(Random& random) {
+  constexpr double rounding = 1e-9;
+  using Numbers = Number_view<CGAL::Gmpq>;
+  const std::optional<harness::Posed_scene> posed = any_scene(random, 8);
+  if (!posed) return;
+  const Scene scene(posed->soup);
+  const Exact_view view(scene, posed->eye);
+  Visible_options options;
+  options.threads = 1;
+  const Visible_surface<Exact_view> surface = visible_surface(view, Piece_boxes(scene), options);
+  Visible_reference reference(view, surface);
+  Depth_buffer buffer;
+  buffer.size = std::uint32_t{1} << random.below(3);
+  Visible_surface<Numbers> cones;
+  const Numbers numbers(scene, posed->eye);
+  std::set<Face_id> visible;
+  for (const Cube_side& side : cube_sides)
+    for (std::uint32_t y = 0; y < buffer.size; ++y)
+      for (std::uint32_t x = 0; x < buffer.size; ++x) {
+        const std::uint32_t piece =
+            random.chance(1, 3) ? buffer.nothing : static_cast<std::uint32_t>(random.below(scene.pieces().size()));
+        buffer.pieces.push_back(piece);
+        if (piece != buffer.nothing && view.eye_side(piece) == CGAL::POSITIVE)
+          visible.insert(scene.pieces()[piece].face);
+        cones.parts.push_back({piece, 4, cones.rays.size()});
+        for (const auto& [right, up] : {std::array<std::uint32_t, 2>{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}) {
+          const std::array<int, 3> image{static_cast<int>(2 * right) - static_cast<int>(buffer.size),
+                                         static_cast<int>(2 * up) - static_cast<int>(buffer.size),
+                                         static_cast<int>(buffer.size)};
+          std::array<CGAL::Gmpq, 3> ray;
+          for (std::size_t k = 0; k < 3; ++k) ray[side.axis[k]] = CGAL::Gmpq(side.sense[k] * image[k]);
+          cones.rays.push_back({ray, Eye_plane_name::axis(0), Eye_plane_name::axis(1)});
+        }
+      }
+  cones.visible.assign(visible.begin(), visible.end());
+  const Visible_errors pixels = reference.errors(buffer), parts = reference.errors(numbers, cones);
+  require(is_near(pixels.wrong, parts.wrong, rounding) && is_near(pixels.tied, parts.tied, rounding),
+          "pixels are as wrong as the cones that they fill");
+  require(parts.gaps < rounding && parts.overlaps < rounding && pixels.gaps == 0 && pixels.overlaps == 0,
+          "pixels leave no gap");
+  require(pixels.wrongly_visible == parts.wrongly_visible && pixels.wrongly_hidden == parts.wrongly_hidden &&
+              pixels.missing == parts.missing && is_near(pixels.largest_missing, parts.largest_missing, rounding),
+          "pixels show the faces that their cones do");
+}
+
+/// What faces have of an image, in pixels.
+inline void try_seen_areas(Random& random) {
+  constexpr double rounding = 1e-6;
+  const std::optional<harness::Posed_scene> posed = any_scene(random, 8);
+  if (!posed) return;
+  const Scene scene(posed->soup);
+  const Pixel_view pixels = generate::any_pixel_view(posed->soup, posed->eye, random);
+  const Exact_view view(scene, posed->eye, field_of(pixels));
+  Visible_options options;
+  options.threads = 1;
+  const Visible_surface<Exact_view> surface = visible_surface(view, Piece_boxes(scene), field_of_view(view), options);
+  const auto exact_vector = [](const std::array<double, 3>& v) {
+    return Exact_point{exact(v[0]), exact(v[1]), exact(v[2])};
+  };
+  const Exact_point right = exact_vector(pixels.right), up = exact_vector(pixels.up), look = exact_vector(pixels.look);
+  const Rational all = dot(right, cross(up, look));
+  std::vector<double> wanted(posed->soup.face_count());
+  std::set<Face_id> seen;
+  for (const auto& part : surface.parts) {
+    if (part.piece == surface.nothing) continue;
+    // A ray is (x right + y up + look) times a number: Cramer's rule.
+    std::vector<Flat_point> corners;
+    for (const Exact_view::Ray& ray : surface.of(part)) {
+      const std::array<Integer, 3> d = view.direction(ray);
+      const Exact_point v{Rational(d[0]), Rational(d[1]), Rational(d[2])};
+      const Rational depth = dot(right, cross(up, v)) / all;
+      corners.push_back(
+          {Rational(dot(v, cross(up, look)) / all / depth), Rational(dot(right, cross(v, look)) / all / depth)});
+    }
+    Rational twice = 0;
+    for (std::size_t k = 2; k < corners.size(); ++k) twice += turn(corners[0], corners[k - 1], corners[k]);
+    const Face_id face = scene.pieces()[part.piece].face;
+    wanted[face] += std::fabs(nearest_double(twice)) / 8 * pixels.width * pixels.height;
+    seen.insert(face);
+  }
+  const std::vector<double> found = seen_areas(view, surface, pixels);
+  for (Face_id f = 0; f < posed->soup.face_count(); ++f) {
+    require((found[f] > 0) == (seen.count(f) > 0), "a face has an area in an image iff a part shows it");
+    require(is_near(found[f], wanted[f], rounding * (1 + wanted[f])), "a face has the area of its parts in an image");
+  }
+}
+
+// ---- Cells of a level
+
+inline void try_cell_sights(Random& random) {
+  constexpr std::size_t most_cells = 12;
+  const std::optional<harness::Posed_scene> posed = any_scene(random, 8);
+  if (!posed) return;
+  Cell_options one;
+  one.threads = 1;
+  const Level_cells level(posed->soup, one);
+  if (level.cells().empty() || level.cells().size() > most_cells) return;
+  const Occluders occluders(level.scene());
+  const Model model(posed->soup);
+  Cell_sights sights(level, occluders, model);
+  const auto cell = static_cast<Cell_id>(random.below(level.cells().size()));
+  const Level_cell& of_level = level.cells()[cell];
+  if (of_level.is_solid) return;
+  const std::vector<Flat_face> faces = harness::flat_faces_of(level.scene());
+  std::vector<Face_id> asked;
+  for (Face_id f = 0; f < posed->soup.face_count(); ++f)
+    if (!std::binary_search(of_level.faces.begin(), of_level.faces.end(), f) && random.chance(2, 3)) asked.push_back(f);
+  std::set<Face_id> found;
+  for (const Cell_sightline& line : sights.sightlines(cell, asked, {})) {
+    require(std::binary_search(asked.begin(), asked.end(), line.face) && found.insert(line.face).second,
+            "each face that is asked for has one sightline at most");
+    require(level.at(line.from) == cell, "a sightline begins in its cell");
+    const Exact_point way = minus(line.to, line.from);
+    bool ends = false;
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      ends = ends ||
+             (level.scene().pieces()[k].face == line.face && faces[k].holds(line.to) && faces[k].height(line.from) > 0);
+      const std::optional<Rational> t = harness::met_at(faces[k], line.from, way);
+      require(!t || *t >= 1, "nothing is met on a sightline");
+    }
+    require(ends, "a sightline ends on its face, from its front");
+  }
+  // What the middle sees of faces, it has sightlines to.
+  const Exact_point middle = level.inside(cell);
+  for (const Face_id f : asked) {
+    const Seen_face seen = sights.seen(middle, f, {});
+    require(seen.pixels <= sights.size_alone(cell, f) * (1 + 1e-6),
+            "a cell's middle sees no more of a face than there is");
+    require(seen.pixels == 0 || found.count(f) > 0, "what a cell's middle sees has a sightline");
+  }
+}
+
 // ---- Sizes
 
 inline void try_sizes(Random& random) {
@@ -515,7 +655,7 @@ inline void try_sizes(Random& random) {
 
 inline void measures(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(9);
+  const std::size_t kind = from.below(12);
   generate::Random random(from.word());
   if (kind == 0) measuring::try_images(random);
   else if (kind == 1) measuring::try_colours(random);
@@ -524,6 +664,9 @@ inline void measures(std::string_view bytes) {
   else if (kind == 4) measuring::try_flat_polygons(random);
   else if (kind == 5) measuring::try_sizes(random);
   else if (kind == 6) measuring::try_visible(random);
+  else if (kind == 7) measuring::try_cube_pixels(random);
+  else if (kind == 8) measuring::try_seen_areas(random);
+  else if (kind == 9) measuring::try_cell_sights(random);
   else measuring::try_orders(random);
 }
 

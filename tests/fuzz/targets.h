@@ -20,6 +20,7 @@
 #include "fixed_integer.h"
 #include "forged.h"
 #include "grid.h"
+#include "judged.h"
 #include "light_work.h"
 #include "limits.h"
 #include "measures.h"
@@ -101,6 +102,7 @@ inline const std::vector<Target>& targets() {
                                        {"cell_proofs", cell_proofs, {}},
                                        {"light_work", light_work, {}},
                                        {"measures", measures, {}},
+                                       {"judged", judged, {}},
                                        {"limits", limits, {}},
                                        {"certificate_forms", certificate_forms, {}},
                                        {"volumes", volumes, {}},

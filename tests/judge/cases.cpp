@@ -41,4 +41,22 @@ TEST(Cases, of_families_say_whether_they_are_as_given_and_who_looks) {
   EXPECT_GT(lent, 10u);
 }
 
+TEST(Cases, of_which_a_face_was_cut_are_not_as_given_however_many_there_are) {
+  // One without area goes, as another becomes two triangles.
+  Polygon_soup soup;
+  for (const auto& [x, y] : {std::pair(0, 0), std::pair(2, 0), std::pair(2, 2), std::pair(0, 2), std::pair(5, 5),
+                             std::pair(6, 6), std::pair(7, 7), std::pair(8, 8)})
+    soup.add_point(Rational(x), Rational(y), Rational(0));
+  soup.add_face({0, 1, 2, 3});
+  soup.add_face({4, 5, 6, 7});
+  judge::Query query;
+  query.eye = {1, 1, 5};
+  judge::Case_options options;
+  EXPECT_TRUE(judge::case_of(soup, query, options).as_given);
+  options.triangles = true;
+  const judge::Case cut = judge::case_of(soup, query, options);
+  EXPECT_EQ(cut.soup.face_count(), soup.face_count());
+  EXPECT_FALSE(cut.as_given);
+}
+
 }  // namespace

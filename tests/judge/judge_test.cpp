@@ -545,6 +545,53 @@ TEST(Explanation, of_weak_visibility_is_a_sightline_or_what_stands_in_the_way) {
   EXPECT_EQ(explained(soup, lamp, "0\n", Contract::aggressive).refutation->face, 0u);
 }
 
+TEST(Explanation, of_weak_visibility_says_so_of_what_is_behind_the_source_with_nothing_between) {
+  const Polygon_soup soup = tower({0, 1});  // both look up, to the back of a source that does
+  Query lamp = question(Question::weak, {0, 0, 0});
+  lamp.source = {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}};
+  const Explanation why = explained(soup, lamp, "1\n");
+  ASSERT_TRUE(why.refutation);
+  EXPECT_EQ(why.refutation->words, "face 1 is behind the source, or in its plane");
+}
+
+TEST(Explanation, of_weak_visibility_looks_from_elsewhere_where_the_middle_of_the_source_is_on_what_hides) {
+  // A trough on the middle line of the source hides what is in it.
+  Polygon_soup soup;
+  const auto add = [&](const std::vector<std::array<int, 3>>& corners) {
+    std::vector<Point_id> loop;
+    for (const auto& [x, y, z] : corners) loop.push_back(soup.add_point(Rational(x), Rational(y), Rational(z)));
+    soup.add_face(loop);
+  };
+  for (const int side : {1, -1}) add({{-9, 0, 0}, {9, 0, 0}, {9, 9 * side, 9}, {-9, 9 * side, 9}});
+  add({{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}});
+  Query lamp = question(Question::weak, {0, 0, 0}, true);
+  lamp.source = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  ASSERT_EQ(truth_of(soup, lamp).hidden, (Faces{2}));
+  const Explanation why = explained(soup, lamp, "0\n1\n2\n");
+  ASSERT_TRUE(why.refutation);
+  EXPECT_EQ(why.refutation->face, 2u);
+  ASSERT_TRUE(why.refutation->by);
+  EXPECT_LE(*why.refutation->by, 1u);
+}
+
+TEST(Explanation, has_shares_at_any_scale) {
+  for (const int power : {-1000, 900}) {
+    const Rational one = generate::power_of_two(power);
+    Polygon_soup soup;
+    for (const Rational& z : {Rational(0), one}) {
+      std::vector<Point_id> loop;
+      for (const auto& [dx, dy] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+        loop.push_back(soup.add_point(dx * one, dy * one, z));
+      soup.add_face(loop);
+    }
+    EXPECT_NEAR(explained(soup, question(Question::see, {0, 0, Rational(2 * one)}), "").share, 1.0 / 6, 1e-12) << power;
+    Query lamp = question(Question::weak, {0, 0, 0});
+    const Rational three = 3 * one, two = 2 * one;
+    lamp.source = {{-three, -three, two}, {-three, three, two}, {three, three, two}, {three, -three, two}};
+    EXPECT_NEAR(explained(soup, lamp, "1\n").share, 0.5, 1e-12) << power;
+  }
+}
+
 // ---- Guesses
 
 TEST(Guess, of_a_reading_holds_where_the_answer_is_right_so) {
@@ -594,6 +641,10 @@ TEST(Guess, of_neighbours_says_no_more_than_they_do) {
   EXPECT_EQ(words({{1, true}, {0, true}, {-millionth, false}}),
             "wrong when moved to the one side (+), as far as one ulp, right when moved to the opposite one: no "
             "tolerance explains that");
+  EXPECT_EQ(words({{0, false}, {1, true}}),
+            "wrong when moved by one ulp, right when moved by nothing: it does not come from being exactly degenerate")
+      << "nobody asked on the opposite side";
+  EXPECT_EQ(words({{0, true}}), "wrong where it is exactly degenerate; of where it is moved nothing is known");
   EXPECT_EQ(words({{0, false}}), "");
 }
 

@@ -422,4 +422,14 @@ TEST(Solids, are_moved_apart_as_eyes_are) {
   EXPECT_EQ(volume(result_of({away.soup, away.query}, Set_operation::unite)), 128);
 }
 
+TEST(Solid_truth, is_there_where_a_solid_is_rounded_to_two_points) {
+  Polygon_soup flat;  // a tetrahedron of which two corners are at each
+  for (const long x : {0L, 9L, 0L, 9L}) flat.add_point(Rational(x), Rational(x), Rational(x));
+  for (const auto& [a, b, c] : {std::array{0u, 2u, 1u}, {0u, 1u, 3u}, {1u, 2u, 3u}, {0u, 3u, 2u}})
+    flat.add_face({a, b, c});
+  const Asked_solids both = asked(box({0, 0, 0}, {1, 1, 1}), flat, Set_operation::differ);
+  ASSERT_EQ(flaw_of_solids(both.soup, both.query.first), "");
+  EXPECT_EQ(solid_truth(both.soup, both.query).volume, 1);
+}
+
 }  // namespace

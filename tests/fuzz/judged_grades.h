@@ -1,0 +1,122 @@
+#pragma once
+// Grades: an answer is wrong exactly where it was made so, and what each contract says of that.
+
+#include "judged_questions.h"
+
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/judge/grade.h>
+#include <sightline/harness/judge/truth.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/sightline.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace fuzz::judged_laws {
+
+inline void try_grade_of_faces(Random& random) {
+  const bool is_weak = random.chance(1, 4);
+  const std::optional<Asked> asked = any_asked(is_weak ? Question::weak : Question::see, random);
+  if (!asked) return;
+  const Truth& truth = asked->truth;
+  const Query& query = asked->made.query;
+  // 1. The truth is what the library says.
+  Asking asking;
+  asking.threads = 1;
+  asking.two_sided = query.two_sided;
+  const Model model(asked->made.soup);
+  std::set<Face_id> visible, hidden, known(asked->owners.begin(), asked->owners.end());
+  if (is_weak) {
+    const Weak_visibility all = weakly_visible(model, std::vector<Points>{query.source}, asking);
+    visible.insert(all.visible.begin(), all.visible.end());
+    hidden.insert(all.hidden.begin(), all.hidden.end());
+  } else {
+    const Seen seen = see(model, query.eye, asking);
+    visible.insert(seen.visible.begin(), seen.visible.end());
+    if (query.two_sided) visible.insert(seen.from_behind.begin(), seen.from_behind.end());
+    for (const Face_id f : known)
+      if (visible.count(f) == 0) hidden.insert(f);
+  }
+  const auto is_of = [](const Face_ids& some, const std::set<Face_id>& all) {
+    return std::all_of(some.begin(), some.end(), [&](Face_id f) { return all.count(f) > 0; });
+  };
+  require(is_of(truth.visible, visible), "what is visible in truth the library sees");
+  require(is_of(truth.hidden, hidden), "what is hidden in truth the library does not see");
+  const std::size_t decided = truth.visible.size() + truth.hidden.size(), all = visible.size() + hidden.size();
+  require(decided == all || (is_weak && 2 * decided >= all), "what the library decides is known, but for a few faces");
+  // 2. An answer is wrong where it was made so.
+  const Flipped answered = flipped(truth.visible, truth.hidden, asked->faces(), true, random);
+  const Grade grade = judge::grade(truth, answered.answer);
+  require(grade.wrong_visible == answered.shown, "a face is wrongly visible iff it is shown and hidden");
+  require(grade.wrong_hidden == answered.left_out, "a face is wrongly hidden iff it is left out and visible");
+  require(grade.abstained == answered.abstained, "a face is left open iff the answer says so and it is known");
+  require(grade.judged == truth.visible.size() + truth.hidden.size(), "faces are judged of which something is known");
+  const bool is_wrong = !answered.shown.empty() || !answered.left_out.empty();
+  require(judge::mark_of(grade) == (is_wrong                     ? Mark::wrong
+                                    : answered.abstained.empty() ? Mark::right
+                                                                 : Mark::abstained),
+          "a mark says whether anything is wrong, or left open");
+}
+
+inline void try_grade_of_an_order(Random& random) {
+  const std::optional<Asked> asked = any_asked(Question::order, random);
+  if (!asked) return;
+  const Query& query = asked->made.query;
+  const Any_order order(*asked, random);
+  judge::Answer answer = order.answer();
+  std::set<Face_id> nearer, farther, open;
+  for (const Face_id f : order.left_out) {
+    if (random.chance(1, 3)) open.insert(f);
+    else if (asked->counts_from(query.eye, f, query.two_sided)) nearer.insert(f);
+  }
+  answer.abstained.assign(open.begin(), open.end());
+  const Grade grade = judge::grade(asked->truth, answer);
+  const std::vector<std::array<Face_id, 2>> pairs = wrong_pairs_by_force(*asked, order.faces);
+  require(grade.wrong_pairs == pairs, "pairs are in the wrong order iff some direction shows them so");
+  for (const auto& [a, b] : pairs) {
+    nearer.insert(a);
+    farther.insert(b);
+  }
+  require(grade.wrong_hidden == Face_ids(nearer.begin(), nearer.end()),
+          "wrongly hidden are those that are drawn too early, or missing");
+  require(grade.wrong_visible == Face_ids(farther.begin(), farther.end()),
+          "wrongly visible are those that are drawn too late");
+}
+
+inline void try_contracts(Random& random) {
+  Grade grade;
+  if (random.chance(1, 2)) grade.wrong_visible = {static_cast<Face_id>(random.below(3))};
+  if (random.chance(1, 2)) grade.wrong_hidden = {static_cast<Face_id>(random.below(3))};
+  if (random.chance(1, 2)) grade.abstained = {4};
+  const std::array<double, 4> errors{0, Grade::largest_error / 2, Grade::largest_error, Grade::largest_error * 2};
+  const auto any_error = [&] { return (random.chance(1, 2) ? 1 : -1) * errors[random.below(4)]; };
+  if (random.chance(1, 2)) grade.volume_error = any_error();
+  if (random.chance(1, 2)) grade.area_error = any_error();
+  const bool more = !grade.wrong_visible.empty() || grade.volume_error > Grade::largest_error,
+             less = !grade.wrong_hidden.empty() ||
+                    grade.volume_error<-Grade::largest_error, other = std::fabs(grade.area_error)> Grade::largest_error;
+  const Mark mark = judge::mark_of(grade);
+  require(mark == (more || less || other     ? Mark::wrong
+                   : grade.abstained.empty() ? Mark::right
+                                             : Mark::abstained),
+          "a mark is wrong where anything is, and abstained where something is open");
+  for (const auto& [contract, is_kept] :
+       {std::pair(Contract::exact, !more && !less && !other), std::pair(Contract::conservative, !less),
+        std::pair(Contract::aggressive, !more)}) {
+    require(judge::keeps(contract, grade) == is_kept, "a contract is kept iff nothing is wrong that it forbids");
+    require(judge::breaks(contract, mark, grade) == !is_kept, "a contract that is not kept is broken");
+    for (const Mark by_itself : {Mark::crashed, Mark::invalid})
+      require(judge::breaks(contract, by_itself, {}), "a crash and an invalid answer break any contract");
+    for (const Mark limit : {Mark::out_of_memory, Mark::timed_out})
+      require(!judge::breaks(contract, limit, {}), "limits of the judge's break no contract");
+  }
+}
+
+}  // namespace fuzz::judged_laws
