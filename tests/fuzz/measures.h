@@ -61,6 +61,9 @@ inline std::optional<harness::Posed_scene> any_scene(Random& random, std::size_t
   return posed;
 }
 
+/// Below it doubles have fewer digits.
+constexpr double least_size = 1e-300;
+
 inline bool is_near(double a, double b, double allowed) { return std::fabs(a - b) <= allowed; }
 
 // ---- Images
@@ -601,7 +604,7 @@ inline void try_cell_sights(Random& random) {
   const Exact_point middle = level.inside(cell);
   for (const Face_id f : asked) {
     const Seen_face seen = sights.seen(middle, f, {});
-    require(seen.pixels <= sights.size_alone(cell, f) * (1 + 1e-6),
+    require(seen.pixels <= sights.size_alone(cell, f) * (1 + 1e-6) + least_size,
             "a cell's middle sees no more of a face than there is");
     require(seen.pixels == 0 || found.count(f) > 0, "what a cell's middle sees has a sightline");
   }
@@ -632,7 +635,8 @@ inline void try_sizes(Random& random) {
     if (seen.count(f) == 0) continue;
     const Seen_face& of_face = seen.at(f);
     all += of_face.pixels * pixel_angle;
-    require(of_face.pixels * pixel_angle <= size * (1 + rounding), "no more is seen of a face than there is");
+    require(of_face.pixels * pixel_angle <= size * (1 + rounding) + least_size,
+            "no more is seen of a face than there is");
     require(of_face.width >= 0 && of_face.width <= 2 * std::numbers::pi, "what is seen has a width");
   }
   require(all <= 4 * std::numbers::pi * (1 + rounding), "no more is seen than all directions");

@@ -16,6 +16,7 @@
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/algorithms/weak_visibility/search/matrix_game.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/kernel/coordinates.h>
 #include <sightline/kernel/fixed_integer.h>
 #include <sightline/kernel/line_table.h>
 #include <sightline/kernel/plane_table.h>
@@ -560,9 +561,65 @@ void try_rounding(Random& random) {
   require(exact(made->farthest) >= farthest, "nothing moves farther than what is said");
 }
 
+/// Numbers with denominators of twos and fives, long and short, and others: each is what was pushed.
+inline void try_coordinates(Random& random) {
+  struct List {
+    Coordinates numbers;
+    std::vector<Rational> pushed;
+  };
+  const auto mantissa = [&] {
+    const auto any = static_cast<std::int64_t>(random.below(std::uint64_t{1} << random.below(63)));
+    return random.chance(1, 2) ? -any : any;
+  };
+  const auto push = [&](List& list) {
+    const std::int64_t m = mantissa();
+    const std::uint64_t kind = random.below(5);
+    if (kind < 2) {
+      const int exponent = static_cast<int>(random.between(kind == 0 ? -70 : -6, 4));
+      list.numbers.push_decimal(m, exponent);
+      list.pushed.push_back(exact_decimal(Integer(static_cast<long>(m)), exponent));
+    } else if (kind == 2) {
+      const double d = std::ldexp(static_cast<double>(m), static_cast<int>(random.between(-140, 30)));
+      list.numbers.push_double(d);
+      list.pushed.push_back(exact(d));
+    } else {
+      // The denominator of a decimal of many places, or one that might be taken for it.
+      std::int64_t denominator = std::int64_t{1} << random.below(40);
+      for (std::uint64_t fives = random.below(9); fives > 0; --fives) denominator *= 5;
+      if (random.chance(1, 4)) denominator = 1 + static_cast<std::int64_t>(random.below(1000));
+      Rational ratio{Integer(static_cast<long>(m)), Integer(static_cast<long>(denominator))};
+      ratio.canonicalize();
+      if (kind == 3) list.numbers.push_ratio(m, denominator);
+      else list.numbers.push(ratio);
+      list.pushed.push_back(ratio);
+    }
+  };
+  std::array<List, 2> lists;
+  for (List& list : lists)
+    for (std::size_t k = random.below(24); k > 0; --k) push(list);
+  lists[0].numbers.append(lists[1].numbers);
+  lists[0].pushed.insert(lists[0].pushed.end(), lists[1].pushed.begin(), lists[1].pushed.end());
+  require(lists[0].numbers.size() == lists[0].pushed.size(), "a list has as many numbers as were pushed");
+  Integer common = 1;
+  for (std::size_t k = 0; k < lists[0].pushed.size(); ++k) {
+    require(lists[0].numbers[k] == lists[0].pushed[k], "a number is what was pushed");
+    common = lcm(common, lists[0].pushed[k].get_den());
+  }
+  require(lists[0].numbers.common_denominator() == common, "a common denominator is the least one");
+  const Integer scale = common * static_cast<long>(random.between(1, 9));
+  std::size_t told = 0;
+  const auto is_scaled = [&](std::size_t k, const Integer& n) {
+    require(k == told++ && lists[0].pushed[k] * scale == n, "numbers are told in order, each times the scale");
+  };
+  lists[0].numbers.for_each_scaled(
+      scale, [&](std::size_t k, std::int64_t n) { is_scaled(k, Integer(static_cast<long>(n))); },
+      [&](std::size_t k, const Integer& n) { is_scaled(k, n); });
+  require(told == lists[0].pushed.size(), "each number is told");
+}
+
 inline void single_parts(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(10);
+  const std::size_t kind = from.below(11);
   Random random(from.word());
   switch (kind) {
     case 0: return try_ray_boxes(random);
@@ -574,6 +631,7 @@ inline void single_parts(std::string_view bytes) {
     case 6: return try_line_table(random);
     case 7: return try_rounding<float>(random);
     case 8: return try_rounding<double>(random);
+    case 9: return try_coordinates(random);
     default: return try_hardly_faces(random);
   }
 }

@@ -240,6 +240,16 @@ TEST(Surface, is_no_choice_of_the_forger) {
                          at(2, 2, 0), at(2, 4, 0), at(4, 4, 0), at(4, 2, 0), at(2, 2, 0)};
   EXPECT_EQ(flaw(bridge, made(bridge)), "");
   EXPECT_EQ(made(bridge).size(), 8u);
+  // No triangle may cross such an edge, though its two ways cancel: here it joins corners 0 and 5 (4 is 0 again).
+  const Points crossed = {at(0, 0, 0), at(10, 0, 0), at(10, 10, 1), at(0, 10, 0), at(0, 0, 0),
+                          at(6, 4, 0), at(4, 3, 0),  at(4, 6, 0),   at(6, 6, 0),  at(6, 4, 0)};
+  EXPECT_EQ(flaw(crossed, made(crossed)), "");
+  Triangles over_it;
+  for (const std::initializer_list<std::size_t> triangle : std::initializer_list<std::initializer_list<std::size_t>>{
+           {1, 2, 5}, {2, 8, 5}, {2, 3, 8}, {3, 7, 8}, {3, 0, 7}, {0, 6, 7}, {0, 1, 6}, {1, 5, 6}})
+    over_it.push_back(corners(crossed, triangle));
+  EXPECT_NE(flaw(crossed, over_it).find("is crossed by an edge of the face"), std::string::npos)
+      << flaw(crossed, over_it);
 }
 
 TEST(Surface, is_the_cone_from_the_least_point_where_no_projection_is_simple) {
