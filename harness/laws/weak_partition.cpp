@@ -122,9 +122,8 @@ bool are_together(const Light_partition& partition, const Place& p, const Place&
 std::string flaw_of_places(const Occluders& occluders, const Weak_source& source, std::uint32_t piece,
                            const Light_partition& partition) {
   constexpr std::size_t most_cells = 10;
-  const auto is_sliver = [&](std::size_t cell) {
-    return partition.cells[cell].area.low < 1e-6;
-  };  // doubles do not tell where it is
+  // Doubles do not tell where a sliver is.
+  const auto is_sliver = [&](std::size_t cell) { return partition.cells[cell].area.low < 1e-6; };
   for (std::size_t c = 0; c < std::min(most_cells, partition.cells.size()); ++c) {
     const Place& at = partition.cells[c].at;
     const std::size_t found = partition.cell_at(at[0], at[1]);

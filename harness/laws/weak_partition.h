@@ -19,8 +19,9 @@ namespace sightline::harness {
 std::string flaw_of_edges(const Scene& scene, std::uint32_t piece, const generate::Points& source,
                           const Exact_point& eye, const std::vector<std::array<Exact_point, 2>>& edges);
 
-/// What a point of a piece's inside sees of a source, by all shadows. Pre: the source is convex. Degenerate: what only
-/// touches is no light. Exact: yes
+/// What a point of a piece's inside sees of a source, by all shadows: it is lit where what it sees is bounded by the
+/// source's own edges, dark where nothing bounds it. Pre: the source is convex. Degenerate: what only touches is no
+/// light. Exact: yes
 Light light_at(const Scene& scene, std::uint32_t piece, const generate::Points& source, const Exact_point& eye);
 
 /// That a face is hidden iff all of it is in umbra, of a share of small scenes; one of its faces each.

@@ -112,7 +112,7 @@ inline void try_at_once(Random& random) {
           "no events are looked at of what one plate hides, or nothing");
 }
 
-/// Many small triangles behind a plate that hides all of them, which is all that is looked at.
+/// Many small triangles behind a plate that hides all of them: no cell is searched, and few pieces are sought.
 inline void try_many_behind_a_plate(Random& random) {
   Points source;
   for (int k = 0; k < 3; ++k)

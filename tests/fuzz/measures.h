@@ -11,6 +11,7 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/kernels.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
@@ -565,6 +566,46 @@ inline void try_seen_areas(Random& random) {
   }
 }
 
+// ---- Areas
+
+/// The root of a rational, or less by up to 2^-100 of it.
+inline Rational root_below(const Rational& square) {
+  const long size =
+                 (static_cast<long>(bit_length(square.get_num())) - static_cast<long>(bit_length(square.get_den()))) /
+                 2,
+             places = 101 - size;
+  const Rational scaled = times_power(square, 2 * places);
+  return times_power(Rational(Integer(sqrt(Integer(scaled.get_num() / scaled.get_den())))), -places);
+}
+
+/// Areas of faces and of all of a scene: within the bounds that are told, and to nearly all digits of doubles.
+inline void try_areas(Random& random) {
+  constexpr double digits = 1e-12, least_area = 1e-290;
+  const std::optional<harness::Posed_scene> posed = any_scene(random, 12);
+  if (!posed) return;
+  const Model model(posed->soup);
+  const Scene scene(posed->soup);
+  std::map<Face_id, Rational> areas;
+  const std::vector<Flat_face> faces = harness::flat_faces_of(scene);
+  for (std::size_t k = 0; k < faces.size(); ++k)
+    areas[scene.pieces()[k].face] += root_below(dot(faces[k].normal, faces[k].normal)) / 2;
+  Polygon_soup flat;  // of planar faces the loops have the areas of the pieces
+  for (const Flat_face& face : faces) flat.add_face(generate::added(flat, face.corners));
+  Rational all = 0;
+  for (Face_id f = 0; f < posed->soup.face_count(); ++f) {
+    all += areas[f];
+    const double wanted = nearest_double(areas[f]), found = model.area(f);
+    if (std::isinf(wanted)) require(std::isinf(found), "an area that doubles do not hold is infinite");
+    else require(is_near(found, wanted, digits * wanted + least_area), "a face has the area of its pieces");
+  }
+  const auto [low, high] = area(flat);
+  const Rational above = all + times_power(all, -99);
+  require(!(low > 0) || std::isinf(low) || exact(low) <= above, "an area is at least its lower bound");
+  require(std::isinf(high) || exact(high) >= all, "an area is at most its upper bound");
+  const double near_all = nearest_double(all);
+  if (near_all < 1e300) require(high - low <= digits * near_all + least_area, "bounds of an area are close");
+}
+
 // ---- Cells of a level
 
 inline void try_cell_sights(Random& random) {
@@ -659,7 +700,7 @@ inline void try_sizes(Random& random) {
 
 inline void measures(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(12);
+  const std::size_t kind = from.below(13);
   generate::Random random(from.word());
   if (kind == 0) measuring::try_images(random);
   else if (kind == 1) measuring::try_colours(random);
@@ -671,6 +712,7 @@ inline void measures(std::string_view bytes) {
   else if (kind == 7) measuring::try_cube_pixels(random);
   else if (kind == 8) measuring::try_seen_areas(random);
   else if (kind == 9) measuring::try_cell_sights(random);
+  else if (kind == 10) measuring::try_areas(random);
   else measuring::try_orders(random);
 }
 
