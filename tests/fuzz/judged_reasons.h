@@ -2,7 +2,7 @@
 // Explanations: the line that refutes an answer does so, by rationals, and the share of the view is what is wrong.
 
 #include "judged_questions.h"
-#include "measures.h"
+#include "measured_flat.h"
 
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
