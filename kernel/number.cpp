@@ -42,9 +42,9 @@ Rational times_power(Rational x, long exponent) {
 }
 
 double square_root(const Rational& square) {
+  if (square == 0) return 0;
   // Near 1, so that nothing is lost of what is rounded.
-  const long half =
-      (static_cast<long>(bit_length(square.get_num())) - static_cast<long>(bit_length(square.get_den()))) / 2;
+  const long half = binary_exponent(square) / 2;
   constexpr long beyond = 5000;
   return std::ldexp(std::sqrt(nearest_double(times_power(square, -2 * half))),
                     static_cast<int>(std::clamp(half, -beyond, beyond)));

@@ -37,6 +37,11 @@ Rational exact_decimal(const Integer& mantissa, long exponent);
 /// range. (GMP's own get_d truncates.) Exact: yes.
 double nearest_double(const Rational& value);
 
+/// e with |x| between 2^(e - 1) and 2^(e + 1), neither of them. Pre: x is not zero.
+inline long binary_exponent(const Rational& x) {
+  return static_cast<long>(bit_length(x.get_num())) - static_cast<long>(bit_length(x.get_den()));
+}
+
 /// x 2^exponent. Exact: yes.
 Rational times_power(Rational x, long exponent);
 

@@ -42,7 +42,7 @@ double angle_of_tangent(const Rational& height, const Rational& width) {
 /// close to 0; then the roots are taken to as many places as that needs. Pre: directions to its corners,
 /// scaled_to_one().
 double solid_angle_of(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
-  constexpr double large = 0x1p-6;  // of a sum, by its largest term: doubles have it to 2^-46 of itself
+  constexpr double large = 0x1p-6;  // of a sum, by its largest term: doubles have it to about 2^-44 of itself
   constexpr long more_places = 60;
   const Rational volume = abs(dot(a, cross(b, c)));
   if (volume == 0) return 0;

@@ -54,7 +54,7 @@ struct Part {
   std::vector<Exact_point> corners;
 
   double area() const;  ///< to about 2^-50
-  /// In steradians, of 4 pi; to about 2^-44 of itself, as far as doubles hold it. 0 for an eye in its plane.
+  /// In steradians, of 4 pi; to about 10^-13 of itself, as far as doubles hold it. 0 for an eye in its plane.
   double solid_angle(const Exact_point& eye) const;
 };
 

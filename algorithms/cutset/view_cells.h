@@ -108,8 +108,7 @@ Rational short_step(std::span<const Form<dimension>> forms, const Point<dimensio
     if (sgn(at_p) == 0 || sgn(along_v) == 0) continue;
     const Rational reach =
         abs(at_p) / abs(along_v);  // at least 2^(difference of lengths - 1), and 2^(that - 1) is less
-    exponent = std::min(
-        exponent, static_cast<long>(bit_length(reach.get_num())) - static_cast<long>(bit_length(reach.get_den())) - 2);
+    exponent = std::min(exponent, binary_exponent(reach) - 2);
   }
   Rational step = 1;
   mpq_div_2exp(step.get_mpq_t(), step.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));

@@ -113,16 +113,8 @@ struct Row {
 /// Where rays of the field are in the image.
 class Corners {
  public:
-  Corners(const Exact_view& view, const Pixel_centres& centres) : view_(view), centres_(centres) {
-    const auto exactly = [](const std::array<double, 3>& v) {
-      return Exact_point{exact(v[0]), exact(v[1]), exact(v[2])};
-    };
-    const Pixel_view& pixels = centres.view();
-    const Exact_point look = exactly(pixels.look), right = exactly(pixels.right), up = exactly(pixels.up);
-    to_look_ = cross(right, up);
-    to_right_ = cross(up, look);
-    to_up_ = cross(look, right);
-  }
+  Corners(const Exact_view& view, const Pixel_centres& centres)
+      : view_(view), centres_(centres), places_(centres.view()) {}
 
   Image_point operator()(const Exact_view::Ray& ray) const {
     const Pixel_view& pixels = centres_.view();
@@ -133,16 +125,14 @@ class Corners {
     const auto place = centres_.place(view_.approximate(ray), ray.error);
     if (place && place->error * half < 0x1p-31 && std::fabs(place->across) <= 1 && std::fabs(place->upwards) <= 1)
       return in_pixels(place->across, place->upwards);
-    const std::array<Integer, 3> integers = view_.direction(ray);
-    const Exact_point d{Rational(integers[0]), Rational(integers[1]), Rational(integers[2])};
-    const Rational z = dot(d, to_look_);
-    return in_pixels(nearest_double(Rational(dot(d, to_right_) / z)), nearest_double(Rational(dot(d, to_up_) / z)));
+    const auto [across, upwards] = places_(view_.direction(ray));
+    return in_pixels(across, upwards);
   }
 
  private:
   const Exact_view& view_;
   const Pixel_centres& centres_;
-  Exact_point to_look_, to_right_, to_up_;
+  Image_places places_;
 };
 
 /// Parts of surfaces in an image, and the rows that they make.
@@ -223,11 +213,8 @@ class Image_parts {
 std::vector<std::array<Integer, 3>> field_of(const Pixel_view& pixels) {
   std::vector<Exact_point> rays{pixels.direction(-1, 1), pixels.direction(1, 1), pixels.direction(1, -1),
                                 pixels.direction(-1, -1)};
-  const auto exactly = [](const std::array<double, 3>& v) {
-    return Exact_point{exact(v[0]), exact(v[1]), exact(v[2])};
-  };
   // Where right, up and look turn the other way, the image is a mirror's.
-  if (sgn(dot(exactly(pixels.look), cross(exactly(pixels.right), exactly(pixels.up)))) > 0)
+  if (sgn(dot(exact(pixels.look), cross(exact(pixels.right), exact(pixels.up)))) > 0)
     std::reverse(rays.begin(), rays.end());
   return field_of(rays);
 }

@@ -77,22 +77,12 @@ void Mean_errors::add(const Layer& truth, const Layer& made) {
 
 std::vector<double> seen_areas(const Exact_view& view, const Visible_surface<Exact_view>& surface,
                                const Pixel_view& pixels) {
-  const auto exactly = [](const std::array<double, 3>& v) {
-    return Exact_point{exact(v[0]), exact(v[1]), exact(v[2])};
-  };
-  const Exact_point right = exactly(pixels.right), up = exactly(pixels.up), look = exactly(pixels.look);
-  const Exact_point to_right = cross(up, look), to_up = cross(look, right), to_look = cross(right, up);
+  const Image_places places(pixels);
   std::vector<double> areas(view.scene().counters().faces_read);
   for (const auto& part : surface.parts) {
     if (part.piece == surface.nothing) continue;
     std::vector<std::array<double, 2>> corners;
-    for (const Exact_view::Ray& ray : surface.of(part)) {
-      const std::array<Integer, 3> d = view.direction(ray);
-      const Exact_point v{Rational(d[0]), Rational(d[1]), Rational(d[2])};
-      const Rational depth = dot(v, to_look);
-      corners.push_back(
-          {nearest_double(Rational(dot(v, to_right) / depth)), nearest_double(Rational(dot(v, to_up) / depth))});
-    }
+    for (const Exact_view::Ray& ray : surface.of(part)) corners.push_back(places(view.direction(ray)));
     double twice = 0;
     for (std::size_t k = 2; k < corners.size(); ++k) {
       const auto &o = corners[0], &p = corners[k - 1], &q = corners[k];

@@ -52,8 +52,8 @@ struct Mean_errors {
 };
 
 /// The area that each face has in an image, by its id, in pixels: what no sample may meet. Pre: the surface is that of
-/// field_of_view(view), with the field of the pixels. Exact: which are 0; areas are doubles, to 2^-50 of the image for
-/// each part.
+/// field_of_view(view), with the field of the pixels. Exact: which are 0; areas are doubles, of corners that are
+/// rounded to the nearest.
 std::vector<double> seen_areas(const Exact_view& view, const Visible_surface<Exact_view>& surface,
                                const Pixel_view& pixels);
 

@@ -46,12 +46,10 @@ std::array<double, 3> scaled(const Flat_line& h) {
   return about;
 }
 
-Exact_point exactly(const std::array<double, 3>& v) { return {exact(v[0]), exact(v[1]), exact(v[2])}; }
-
 }  // namespace
 
 Pixel_squares::Pixel_squares(const Scene& scene, const Pixel_view& pixels) : pixels_(pixels) {
-  const Exact_point look = exactly(pixels.look), right = exactly(pixels.right), up = exactly(pixels.up);
+  const Exact_point look = exact(pixels.look), right = exact(pixels.right), up = exact(pixels.up);
   const auto in_image = [&](const Exact_point& n) { return Form{dot(n, right), dot(n, up), dot(n, look)}; };
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
     // 1. Its corners from the eye, and its plane.

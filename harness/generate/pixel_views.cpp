@@ -14,7 +14,6 @@ namespace {
 std::array<double, 3> rounded(const Exact_point& v) {
   return {nearest_double(v[0]), nearest_double(v[1]), nearest_double(v[2])};
 }
-Exact_point exactly(const std::array<double, 3>& v) { return {exact(v[0]), exact(v[1]), exact(v[2])}; }
 
 }  // namespace
 
@@ -49,7 +48,7 @@ Pixel_view any_pixel_view(const Polygon_soup& soup, const Exact_point& eye, Rand
     }
     const auto is_finite = [](const std::array<double, 3>& v) { return std::isfinite(v[0] + v[1] + v[2]); };
     if (!is_finite(view.look) || !is_finite(view.right)) continue;  // the scene is beyond doubles
-    if (sgn(dot(exactly(view.look), cross(exactly(view.right), exactly(view.up)))) != 0) return view;
+    if (sgn(dot(exact(view.look), cross(exact(view.right), exact(view.up)))) != 0) return view;
   }
 }
 

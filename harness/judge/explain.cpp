@@ -1,5 +1,6 @@
 #include <sightline/harness/judge/explain.h>
 
+#include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/weak.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
@@ -17,6 +18,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <numbers>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -311,22 +313,16 @@ std::optional<Refutation> weakly_hidden_face(const std::vector<Flat_piece>& piec
   return std::nullopt;
 }
 
-/// How large pieces are, the largest about 1, so that doubles hold their sum.
-std::vector<double> areas_of(const std::vector<Flat_piece>& pieces) {
-  std::vector<Exact_point> vectors;
-  Rational largest = 0;
-  for (const Flat_piece& piece : pieces) {
-    Exact_point& sum = vectors.emplace_back(Exact_point{0, 0, 0});
-    for (std::size_t i = 1; i + 1 < piece.corners.size(); ++i) {
-      const Exact_point &origin = piece.corners[0],
-                        part = cross(minus(piece.corners[i], origin), minus(piece.corners[i + 1], origin));
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
-    }
-    for (const Rational& x : sum) largest = std::max(largest, Rational(abs(x)));
+/// How large faces are, the largest about 1, so that doubles hold their sum.
+std::vector<double> areas_of(const Polygon_soup& soup) {
+  std::vector<Rational> squares;
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const Exact_point vector = doubled_area_vector(soup, f);
+    squares.push_back(dot(vector, vector));
   }
+  const Rational largest = *std::max_element(squares.begin(), squares.end());
   std::vector<double> areas;
-  for (const Exact_point& vector : vectors)
-    areas.push_back(square_root(Rational(dot(vector, vector) / (largest * largest))));
+  for (const Rational& square : squares) areas.push_back(square_root(Rational(square / largest)));
   return areas;
 }
 
@@ -344,12 +340,13 @@ Explanation explain_weak(const Polygon_soup& soup, const Query& query, const Gra
   const auto holds = [](const std::vector<Face_id>& faces, Face_id f) {
     return std::binary_search(faces.begin(), faces.end(), f);
   };
-  const std::vector<double> areas = areas_of(pieces);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const Face_id face = pieces[k].face;
-    if (holds(answer.abstained, face)) continue;
-    all += areas[k];
-    if (holds(grade.wrong_visible, face) || holds(grade.wrong_hidden, face)) wrong += areas[k];
+  const std::vector<double> areas = areas_of(soup);
+  std::set<Face_id> answered;
+  for (const Flat_piece& piece : pieces)
+    if (!holds(answer.abstained, piece.face)) answered.insert(piece.face);
+  for (const Face_id face : answered) {
+    all += areas[face];
+    if (holds(grade.wrong_visible, face) || holds(grade.wrong_hidden, face)) wrong += areas[face];
   }
   why.share = all > 0 ? wrong / all : 0;
   why.share_words = percent(why.share) + " of the area that is answered for is of wrong faces";

@@ -1,6 +1,7 @@
 #include <sightline/harness/judge/guess.h>
 
 #include <sightline/algorithms/verify/polygons.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/harness/judge/rays.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
@@ -12,16 +13,6 @@
 
 namespace sightline::judge {
 namespace {
-
-Polygon_soup turned_round(const Polygon_soup& soup) {
-  Polygon_soup turned;
-  turned.coordinates = soup.coordinates;
-  for (Face_id f = 0; f < soup.face_count(); ++f) {
-    const std::vector<Point_id> loop(soup.loop(f).rbegin(), soup.loop(f).rend());
-    turned.add_face(loop);
-  }
-  return turned;
-}
 
 bool graded_right(const Polygon_soup& soup, const Query& query, const Answer& answer, const Truth_options& options) {
   const Truth truth = truth_of(soup, query, options);
@@ -84,7 +75,7 @@ bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, con
   Ray_rule rule;
   rule.excuse_touching = options.excuse_touching;
   switch (reading) {
-    case Reading::turned: return graded_right(turned_round(soup), query, answer, options);
+    case Reading::turned: return graded_right(generate::faces_reversed(soup), query, answer, options);
     case Reading::other_sides: other.two_sided = !query.two_sided; break;
     case Reading::source_turned: std::reverse(other.source.begin(), other.source.end()); break;
     case Reading::nothing_hides: return !grade(with_nothing_hidden(soup, query), answer).wrong();
@@ -115,7 +106,7 @@ bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, con
     case Reading::fronts_only: rule.fronts_only = true; return traced_right(soup, query, answer, rule);
     case Reading::farthest: rule.farthest = true; return traced_right(soup, query, answer, rule);
     case Reading::inside_out:
-      if (read.surface) read.surface = turned_round(*read.surface);
+      if (read.surface) read.surface = generate::faces_reversed(*read.surface);
       break;
     case Reading::swapped: {
       std::array<Polygon_soup, 2> solids = solids_of(soup, query.first);

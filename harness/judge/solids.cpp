@@ -45,8 +45,7 @@ Rational unit_of_area(const Polygon_soup& soup) {
     const Exact_point twice = doubled_area_vector(soup, f);
     largest = std::max(largest, dot(twice, twice));
   }
-  return generate::power_of_two(
-      (static_cast<int>(bit_length(largest.get_num())) - static_cast<int>(bit_length(largest.get_den()))) / 4);
+  return generate::power_of_two(static_cast<int>(binary_exponent(largest) / 4));
 }
 
 // ---- Points that are judged

@@ -198,8 +198,7 @@ Outcome heedless(const Seen& seen) {
     for (const Piece_corner& corner : seen.scene.corners(piece)) corners.push_back(seen.scene.position(corner.point));
     faces.emplace_back(std::move(corners));
   }
-  const Exact_point eye = seen.pixels.eye,
-                    look{exact(seen.pixels.look[0]), exact(seen.pixels.look[1]), exact(seen.pixels.look[2])};
+  const Exact_point eye = seen.pixels.eye, look = exact(seen.pixels.look);
   for (const Painter_key key : {Painter_key::nearest, Painter_key::farthest, Painter_key::mean}) {
     const Piece_image image = heedless_painter(seen.scene, seen.pixels, key, Image_kernel::exact, serial());
     std::vector<Rational> keys;
@@ -324,10 +323,7 @@ Outcome in_squares(const Seen& seen) {
   if (straight.state != Outcome::State::passed) return straight;
   Pixel_view skew = seen.pixels;
   for (std::size_t k = 0; k < 3; ++k) skew.right[k] = skew.look[k] / 2 + 0x1p-20 * skew.right[k];
-  const auto exactly = [](const std::array<double, 3>& v) {
-    return Exact_point{exact(v[0]), exact(v[1]), exact(v[2])};
-  };
-  if (dot(exactly(skew.look), cross(exactly(skew.right), exactly(skew.up))) == 0) return {};
+  if (dot(exact(skew.look), cross(exact(skew.right), exact(skew.up))) == 0) return {};
   return as_areas<Transparent>(seen, skew);
 }
 

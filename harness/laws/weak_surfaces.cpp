@@ -63,9 +63,9 @@ std::optional<Exact_point> through(const Exact_point& at, const Edge& first, con
   return direction;
 }
 
-/// Between two rationals, neither of them.
-Rational between(const Rational& low, const Rational& high, Random& random) {
-  return low + (high - low) * generate::ratio(static_cast<long>(1 + random.below(63)), 64);
+/// A point strictly between an edge's ends.
+Exact_point inner_point(const Edge& edge, Random& random) {
+  return generate::along(edge.a, generate::ratio(static_cast<long>(1 + random.below(63)), 64), minus(edge.b, edge.a));
 }
 
 std::optional<Touching> any_line(const std::vector<Edge>& edges, Random& random) {
@@ -73,10 +73,9 @@ std::optional<Touching> any_line(const std::vector<Edge>& edges, Random& random)
   const Edge &first = any_edge(), &second = any_edge(), &third = any_edge();
   Touching line;
   const bool has_corner = random.chance(1, 3);
-  line.at = has_corner ? first.a : generate::along(first.a, between(0, 1, random), minus(first.b, first.a));
+  line.at = has_corner ? first.a : inner_point(first, random);
   if (has_corner) {
-    const Exact_point to = generate::along(second.a, between(0, 1, random), minus(second.b, second.a));
-    line.direction = minus(to, line.at);
+    line.direction = minus(inner_point(second, random), line.at);
     if (is_zero(cross(line.direction, minus(second.b, second.a)))) return std::nullopt;
     line.corner = line.at;
     line.edges = {second};
@@ -102,7 +101,7 @@ std::optional<Rational> met(const Flat_face& face, const Touching& line) {
 
 /// Whether the line goes from the source to a piece, each in front of the other, and is blocked by nothing, and touches
 /// on its way all that it is to touch, and nothing else.
-bool is_free(const std::vector<Flat_face>& polygons, std::size_t piece, Touching& line) {
+bool is_free(const std::vector<Flat_face>& polygons, std::size_t piece, const Touching& line) {
   const std::size_t source = polygons.size() - 1;
   const auto may_touch = [&](std::size_t k) {
     return std::find(line.polygons.begin(), line.polygons.end(), k) != line.polygons.end();
@@ -135,7 +134,7 @@ bool is_free(const std::vector<Flat_face>& polygons, std::size_t piece, Touching
   // 3. What it touches.
   if (line.corner && (!is_between(0, true) || ends[0] == 0)) return false;
   return std::all_of(line.edges.begin(), line.edges.end(), [&](const Edge& edge) {
-    // The edge's plane through the line's normal direction is met at the edge alone.
+    // Where the line goes through the plane of the edge that it is across, it is on the edge.
     const Exact_point across = cross(minus(edge.b, edge.a), cross(line.direction, minus(edge.b, edge.a)));
     const Rational slope = dot(across, line.direction);
     return slope != 0 && is_between(Rational(dot(across, minus(edge.a, line.at)) / slope), true);
@@ -189,7 +188,7 @@ Outcome run(const Posed_scene& posed, const Answer&, Random& random) {
       edges.push_back({k, polygons[k].corners[i], polygons[k].corners[(i + 1) % polygons[k].corners.size()]});
   std::size_t asked = 0;
   for (std::size_t k = 0; k < tries; ++k) {
-    std::optional<Touching> line = any_line(edges, random);
+    const std::optional<Touching> line = any_line(edges, random);
     if (!line) continue;
     for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
       if (!is_free(polygons, piece, *line)) continue;

@@ -1,5 +1,7 @@
 #include <sightline/kernel/scene/pixel_view.h>
 
+#include <sightline/kernel/vectors.h>
+
 #include <cstddef>
 
 namespace sightline {
@@ -24,6 +26,19 @@ Exact_point Pixel_view::direction(const Rational& across, const Rational& upward
   Exact_point d;
   for (std::size_t k = 0; k < 3; ++k) d[k] = exact(look[k]) + across * exact(right[k]) + upwards * exact(up[k]);
   return d;
+}
+
+Image_places::Image_places(const Pixel_view& pixels) {
+  const Exact_point look = exact(pixels.look), right = exact(pixels.right), up = exact(pixels.up);
+  to_right_ = cross(up, look);
+  to_up_ = cross(look, right);
+  to_look_ = cross(right, up);
+}
+
+std::array<double, 2> Image_places::operator()(const std::array<Integer, 3>& direction) const {
+  const Exact_point d{Rational(direction[0]), Rational(direction[1]), Rational(direction[2])};
+  const Rational depth = dot(d, to_look_);
+  return {nearest_double(Rational(dot(d, to_right_) / depth)), nearest_double(Rational(dot(d, to_up_) / depth))};
 }
 
 }  // namespace sightline

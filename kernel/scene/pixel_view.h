@@ -24,4 +24,16 @@ struct Pixel_view {
   Exact_point direction(const Rational& across, const Rational& upwards) const;
 };
 
+/// Where directions are in an image: of each what direction() is given. Pre: finite directions that span the space.
+class Image_places {
+ public:
+  explicit Image_places(const Pixel_view& pixels);
+
+  /// Across and upwards, each the nearest double. Pre: the direction is not along the image's plane.
+  std::array<double, 2> operator()(const std::array<Integer, 3>& direction) const;
+
+ private:
+  Exact_point to_right_, to_up_, to_look_;
+};
+
 }  // namespace sightline

@@ -9,14 +9,11 @@
 namespace sightline {
 
 Exact_point scaled_to_one(Exact_point v) {
-  std::optional<long> largest;  // 2^largest and less than four times as much
-  for (const Rational& x : v) {
-    if (sgn(x) == 0) continue;
-    const long size = static_cast<long>(bit_length(x.get_num())) - static_cast<long>(bit_length(x.get_den())) - 1;
-    largest = std::max(largest.value_or(size), size);
-  }
+  std::optional<long> largest;
+  for (const Rational& x : v)
+    if (sgn(x) != 0) largest = std::max(largest.value_or(binary_exponent(x)), binary_exponent(x));
   if (largest)
-    for (Rational& x : v) x = times_power(std::move(x), -(*largest + 2));
+    for (Rational& x : v) x = times_power(std::move(x), -(*largest + 1));
   return v;
 }
 

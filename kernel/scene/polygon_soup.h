@@ -18,6 +18,9 @@ using Point_id = std::uint32_t;
 using Face_id = std::uint32_t;  ///< 0-based place of a face in the input
 using Exact_point = std::array<Rational, 3>;
 
+/// The point that finite doubles are. Exact: yes
+inline Exact_point exact(const std::array<double, 3>& v) { return {exact(v[0]), exact(v[1]), exact(v[2])}; }
+
 /// A vector times a power of two: its largest coordinate is between 1/4 and 1, so that doubles can tell what depends on
 /// directions alone. Degenerate: zero stays zero. Exact: yes
 Exact_point scaled_to_one(Exact_point v);

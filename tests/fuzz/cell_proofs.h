@@ -2,6 +2,7 @@
 // Cells of lines by themselves: there is no proof that a cell is empty where it has a line, and of two sides there is
 // one by exact multipliers iff some mixture of them is nowhere positive.
 
+#include "any_case.h"
 #include "support.h"
 
 #include <sightline/algorithms/weak_visibility/edge_lines.h>
@@ -11,7 +12,6 @@
 #include <sightline/algorithms/weak_visibility/search/line_cell.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
-#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/fuzz.h>
 #include <sightline/kernel/line_table.h>
@@ -51,13 +51,14 @@ class Cells_of_lines {
       if (row.decided == 0) cell.rows.push_back({cell.rows.size(), {line, sign}, &row});
     }
     if (cell.rows.empty()) return;
-    Weak_counters counters;
+    ++asked;
     std::vector<Multiplier> proof;
     proofs_.relax(cell, counters);
     bool is_proved = proofs_.by_relaxation(cell, proof, counters) == Cell_proofs::Relaxation::empty ||
                      proofs_.by_exact_relaxation(cell, proof, counters) || proofs_.at_corner(cell, proof, counters);
     for (const bool of_source : {true, false})
-      is_proved = is_proved || proofs_.by_forms(cell, of_source, random.chance(1, 2), proof, counters);
+      for (const bool thoroughly : {true, false})
+        is_proved = is_proved || proofs_.by_forms(cell, of_source, thoroughly, proof, counters);
     require(!is_proved, "a cell that has a line is proved empty");
   }
 
@@ -78,7 +79,6 @@ class Cells_of_lines {
       for (std::size_t c = 0; c < cell.pairs(); ++c) bits += bit_length(side_of(cell, k, c).get_num());
     if (bits > most_bits) return;
     const bool is_empty = has_mixture(cell);
-    Weak_counters counters;
     std::vector<Multiplier> proof, exact;
     proofs_.relax(cell, counters);
     const bool is_found = proofs_.by_relaxation(cell, proof, counters) == Cell_proofs::Relaxation::empty;
@@ -87,6 +87,9 @@ class Cells_of_lines {
             "two sides leave no line by exact multipliers iff some mixture of them is nowhere positive");
     require(!is_empty || is_proof(cell, exact), "exact multipliers are a proof");
   }
+
+  Weak_counters counters;
+  std::size_t asked = 0;  ///< cells that have a line
 
  private:
   /// A point inside a polygon, by weights that are often of very different sizes.
@@ -141,8 +144,7 @@ inline void cell_proofs(std::string_view bytes) {
   constexpr int turns = 12;
   Bytes from(bytes);
   generate::Random random(from.word());
-  const std::vector<generate::Family>& families = generate::families();
-  const harness::Posed_scene posed = harness::make(harness::draw_case(families[random.below(families.size())], random));
+  const harness::Posed_scene posed = harness::make(any_case(random));
   if (posed.source.empty()) return;
   const Scene scene(posed.soup);
   if (scene.pieces().empty() || scene.pieces().size() > most_pieces) return;

@@ -9,6 +9,7 @@
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/harness/judge/guess.h>
 #include <sightline/harness/judge/solids.h>
 #include <sightline/harness/judge/truth.h>
@@ -32,23 +33,21 @@
 
 namespace fuzz::judged_laws {
 
+inline Reading any_reading(Question question, Random& random) {
+  const std::vector<Reading> readings = judge::readings_of(question);
+  return readings[random.below(readings.size())];
+}
+
 inline void try_reading_of_faces(Random& random) {
   const std::optional<Asked> asked = any_asked(random.chance(1, 4) ? Question::weak : Question::see, random);
   if (!asked) return;
   Query query = asked->made.query;
   Polygon_soup soup = asked->made.soup;
-  const std::vector<Reading> readings = judge::readings_of(query.question);
-  const Reading reading = readings[random.below(readings.size())];
+  const Reading reading = any_reading(query.question, random);
   // 1. What is visible so read.
   Truth truth = asked->truth;
   if (reading == Reading::turned) {
-    Polygon_soup turned;
-    turned.coordinates = soup.coordinates;
-    for (Face_id f = 0; f < soup.face_count(); ++f) {
-      const auto loop = soup.loop(f);
-      turned.add_face(std::vector<Point_id>(loop.rbegin(), loop.rend()));
-    }
-    truth = judge::truth_of(turned, query, asked->options);
+    truth = judge::truth_of(generate::faces_reversed(soup), query, asked->options);
   } else if (reading == Reading::other_sides || reading == Reading::source_turned) {
     Query other = query;
     if (reading == Reading::other_sides) other.two_sided = !other.two_sided;
@@ -81,8 +80,7 @@ inline void try_reading_of_an_order(Random& random) {
   const std::optional<Asked> asked = any_asked(Question::order, random);
   if (!asked) return;
   const Query& query = asked->made.query;
-  const std::vector<Reading> readings = judge::readings_of(Question::order);
-  const Reading reading = readings[random.below(readings.size())];
+  const Reading reading = any_reading(Question::order, random);
   const Any_order order(*asked, random);
   bool is_right = wrong_pairs_by_force(*asked, order.faces).empty();
   for (const Face_id f : order.left_out) {
@@ -103,8 +101,7 @@ inline void try_reading_of_rays(Random& random) {
   const std::optional<Asked> asked = any_asked(Question::trace, random);
   if (!asked) return;
   const Query& query = asked->made.query;
-  const std::vector<Reading> readings = judge::readings_of(Question::trace);
-  const Reading reading = readings[random.below(readings.size())];
+  const Reading reading = any_reading(Question::trace, random);
   const std::uint64_t rare = random.chance(1, 2) ? 1000 : 20;
   judge::Answer answer;
   bool is_right = true;
@@ -158,11 +155,8 @@ inline void try_reading_of_solids(Random& random) {
             "the first solid less the second is not the other way round");
     return;
   }
-  Polygon_soup turned;
-  turned.coordinates = right.coordinates;
-  for (Face_id f = 0; f < right.face_count(); ++f)
-    turned.add_face(std::vector<Point_id>(right.loop(f).rbegin(), right.loop(f).rend()));
-  require(is_right(Reading::inside_out, turned), "a result turned inside out is right if fronts look inwards");
+  require(is_right(Reading::inside_out, generate::faces_reversed(right)),
+          "a result turned inside out is right if fronts look inwards");
   require(is_right(Reading::inside_out, right) == (right.face_count() == 0), "a result is not turned inside out");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Small cases for the judge, with all that is known of them, and answers that are wrong where they are made so.
 
+#include "any_case.h"
 #include "support.h"
 
 #include <sightline/harness/generate/families.h>
@@ -53,11 +54,6 @@ inline Case_options any_options(Question question, Random& random) {
   options.doubles = random.chance(1, 2);
   options.triangles = random.chance(1, 3);
   return options;
-}
-
-inline harness::Fuzz_case any_case(Random& random) {
-  const std::vector<generate::Family>& families = generate::families();
-  return harness::draw_case(families[random.below(families.size())], random);
 }
 
 /// A small case, its convex pieces, and the library's truth about it.

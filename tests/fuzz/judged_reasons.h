@@ -25,6 +25,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fuzz::judged_laws {
@@ -95,49 +96,64 @@ inline bool has_common_planes(const Asked& asked) {
 
 inline Contract any_contract(Random& random) { return static_cast<Contract>(random.below(3)); }
 
-inline void try_why_not_seen(Random& random) {
-  const std::optional<Asked> asked = any_asked(Question::see, random);
-  if (!asked) return;
-  const Query& query = asked->made.query;
+/// A wrong answer to see or weak, and why it is wrong: by a face that the contract forbids, a missing one or a shown
+/// one.
+struct Wrong_faces {
+  Asked asked;
+  Grade grade;
+  Explanation why;
+  bool is_missing;
+};
+inline std::optional<Wrong_faces> any_wrong_faces(Question question, Random& random) {
+  std::optional<Asked> asked = any_asked(question, random);
+  if (!asked) return std::nullopt;
   const judge::Answer answer = flipped(asked->truth.visible, asked->truth.hidden, asked->faces(), true, random).answer;
   const Grade grade = judge::grade(asked->truth, answer);
-  if (!grade.wrong()) return;
+  if (!grade.wrong()) return std::nullopt;
   const Contract contract = any_contract(random);
-  const Explanation why = judge::explain(asked->made.soup, query, answer, grade, contract);
-  require(why.refutation.has_value(), "a line tells of a face that an eye sees or not");
-  const Refutation& line = *why.refutation;
+  const Explanation why = judge::explain(asked->made.soup, asked->made.query, answer, grade, contract);
   const bool is_missing = is_missing_first(contract, grade);
-  require(holds(is_missing ? grade.wrong_hidden : grade.wrong_visible, line.face),
+  require(why.refutation.has_value(), "a line tells of a face that is seen or not");
+  require(holds(is_missing ? grade.wrong_hidden : grade.wrong_visible, why.refutation->face),
           "a face is told of that the contract forbids, if there is one");
+  return Wrong_faces{std::move(*asked), grade, why, is_missing};
+}
+
+inline void try_why_not_seen(Random& random) {
+  const std::optional<Wrong_faces> wrong_faces = any_wrong_faces(Question::see, random);
+  if (!wrong_faces) return;
+  const auto& [asked, grade, why, is_missing] = *wrong_faces;
+  const Query& query = asked.made.query;
+  const Refutation& line = *why.refutation;
   require(line.from == query.eye, "a line begins at the eye");
   if (is_missing) {
-    require(!line.by && asked->is_on(line.face, line.to, true), "a missing face is seen inside of itself");
-    require(asked->counts_from(query.eye, line.face, query.two_sided), "a missing face is seen from where it counts");
-    require(!asked->first_between(line.from, line.to), "a missing face is seen along a free line");
+    require(!line.by && asked.is_on(line.face, line.to, true), "a missing face is seen inside of itself");
+    require(asked.counts_from(query.eye, line.face, query.two_sided), "a missing face is seen from where it counts");
+    require(!asked.first_between(line.from, line.to), "a missing face is seen along a free line");
   } else {
-    require_blocked(*asked, line, {query.eye});
+    require_blocked(asked, line, {query.eye});
   }
   // How much is wrong.
   require_told(why);
   if (!grade.wrong_visible.empty()) {
     double shown = 0;
     bool is_front = true;
-    for (std::size_t k = 0; k < asked->pieces.size(); ++k)
-      if (holds(grade.wrong_visible, asked->owners[k])) {
-        const int side = sgn(asked->pieces[k].height(query.eye));
+    for (std::size_t k = 0; k < asked.pieces.size(); ++k)
+      if (holds(grade.wrong_visible, asked.owners[k])) {
+        const int side = sgn(asked.pieces[k].height(query.eye));
         is_front = is_front && (side >= 0 || query.two_sided);
-        is_front = is_front && !(side == 0 && asked->is_on(asked->owners[k], query.eye, false));
-        if (side != 0) shown += share_of_directions(asked->pieces[k].corners, query.eye);
+        is_front = is_front && !(side == 0 && asked.is_on(asked.owners[k], query.eye, false));
+        if (side != 0) shown += share_of_directions(asked.pieces[k].corners, query.eye);
       }
     const double told = percentage_after(why.share_words, "would fill ");
     if (is_front)
       require(std::fabs(told - shown) <= 1e-3 * shown + 1e-9, "hidden faces fill what they would by themselves");
   }
-  if (has_common_planes(*asked)) return;
+  if (has_common_planes(asked)) return;
   Asking asking;
   asking.threads = 1;
   double missing = 0, largest = 0, told = 0;
-  for (const Seen::Visible_part& part : see(Model(asked->made.soup), query.eye, asking).parts) {
+  for (const Seen::Visible_part& part : see(Model(asked.made.soup), query.eye, asking).parts) {
     if (!holds(grade.wrong_hidden, part.face) || (!part.from_front && !query.two_sided)) continue;
     const double share = share_of_directions(part.corners, query.eye);
     missing += share;
@@ -150,44 +166,36 @@ inline void try_why_not_seen(Random& random) {
 }
 
 inline void try_why_not_weakly_visible(Random& random) {
-  const std::optional<Asked> asked = any_asked(Question::weak, random);
-  if (!asked) return;
-  const Query& query = asked->made.query;
-  const judge::Answer answer = flipped(asked->truth.visible, asked->truth.hidden, asked->faces(), true, random).answer;
-  const Grade grade = judge::grade(asked->truth, answer);
-  if (!grade.wrong()) return;
-  const Contract contract = any_contract(random);
-  const Explanation why = judge::explain(asked->made.soup, query, answer, grade, contract);
-  const Flat_face source(query.source);
-  const bool is_missing = is_missing_first(contract, grade);
-  require(why.refutation.has_value(), "a line tells of a face that a source sees or not");
+  const std::optional<Wrong_faces> wrong_faces = any_wrong_faces(Question::weak, random);
+  if (!wrong_faces) return;
+  const auto& [asked, grade, why, is_missing] = *wrong_faces;
+  const Query& query = asked.made.query;
   const Refutation& line = *why.refutation;
-  require(holds(is_missing ? grade.wrong_hidden : grade.wrong_visible, line.face),
-          "a face is told of that the contract forbids, if there is one");
+  const Flat_face source(query.source);
   require(source.height(line.from) == 0 && source.side_within(line.from) > 0, "a line begins inside the source");
   if (is_missing) {
-    require(!line.by && asked->is_on(line.face, line.to, true), "a missing face is seen inside of itself");
-    require(source.height(line.to) > 0 && asked->counts_from(line.from, line.face, query.two_sided),
+    require(!line.by && asked.is_on(line.face, line.to, true), "a missing face is seen inside of itself");
+    require(source.height(line.to) > 0 && asked.counts_from(line.from, line.face, query.two_sided),
             "a missing face is seen from where it counts");
-    require(!asked->first_between(line.from, line.to), "a missing face is seen along a free line");
+    require(!asked.first_between(line.from, line.to), "a missing face is seen along a free line");
   } else {
-    require_blocked(*asked, line, query.source);
+    require_blocked(asked, line, query.source);
   }
   require_told(why);
   double wrong = 0, all = 0;
   Rational largest = 0;
-  for (const Flat_face& piece : asked->pieces)
+  for (const Flat_face& piece : asked.pieces)
     for (const Rational& x : piece.normal) largest = std::max(largest, Rational(abs(x)));
-  for (std::size_t k = 0; k < asked->pieces.size(); ++k) {
-    const Exact_point& normal = asked->pieces[k].normal;
-    const Face_id face = asked->owners[k];
+  for (std::size_t k = 0; k < asked.pieces.size(); ++k) {
+    const Exact_point& normal = asked.pieces[k].normal;
+    const Face_id face = asked.owners[k];
     const double area = std::sqrt(Rational(dot(normal, normal) / (largest * largest)).get_d());
     if (holds(grade.wrong_visible, face) || holds(grade.wrong_hidden, face)) wrong += area;
-    if (!holds(grade.abstained, face) && (holds(asked->truth.visible, face) || holds(asked->truth.hidden, face)))
+    if (!holds(grade.abstained, face) && (holds(asked.truth.visible, face) || holds(asked.truth.hidden, face)))
       all += area;
   }
-  const std::set<Face_id> kept(asked->owners.begin(), asked->owners.end());
-  if (kept.size() == asked->truth.visible.size() + asked->truth.hidden.size())
+  const std::set<Face_id> kept(asked.owners.begin(), asked.owners.end());
+  if (kept.size() == asked.truth.visible.size() + asked.truth.hidden.size())
     require(are_near(why.share, wrong / all), "a share is of areas that are answered for");
 }
 

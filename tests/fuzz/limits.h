@@ -2,6 +2,7 @@
 // What is at the limits of numbers, and what is told of progress: wide faces, rays from where doubles end, images and
 // certificates for which somebody waits.
 
+#include "any_case.h"
 #include "refusals.h"
 #include "support.h"
 
@@ -11,7 +12,6 @@
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/rays/ray.h>
 #include <sightline/algorithms/rays/tracer.h>
-#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/pixel_views.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/fuzz.h>
@@ -174,8 +174,7 @@ inline void try_far_rays(generate::Random& random) {
 /// The same to whoever waits.
 inline void try_told(generate::Random& random) {
   constexpr std::size_t most_faces = 24;
-  const std::vector<generate::Family>& families = generate::families();
-  const harness::Posed_scene posed = harness::make(harness::draw_case(families[random.below(families.size())], random));
+  const harness::Posed_scene posed = harness::make(any_case(random));
   if (posed.soup.face_count() > most_faces) return;
   const Scene scene(posed.soup);
   if (scene.pieces().empty()) return;

@@ -2,10 +2,10 @@
 // What targets that measure share: scenes with an eye, polygons of the plane, solid angles. And polygons of the plane,
 // as `compare` cuts them, against triangles.
 
+#include "any_case.h"
 #include "support.h"
 
 #include <sightline/harness/compare/flat_polygon.h>
-#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/flat_faces.h>
@@ -30,8 +30,7 @@ using harness::Flat_face;
 
 /// A small scene of a family, and an eye.
 inline std::optional<harness::Posed_scene> any_scene(Random& random, std::size_t most_pieces) {
-  const std::vector<generate::Family>& families = generate::families();
-  harness::Posed_scene posed = harness::make(harness::draw_case(families[random.below(families.size())], random));
+  harness::Posed_scene posed = harness::make(any_case(random));
   const Scene scene(posed.soup);
   if (scene.pieces().empty() || scene.pieces().size() > most_pieces) return std::nullopt;
   return posed;

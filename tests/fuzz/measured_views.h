@@ -35,17 +35,35 @@ namespace fuzz::measuring {
 
 // ---- Visible surfaces
 
+inline Visible_options alone() {
+  Visible_options options;
+  options.threads = 1;
+  return options;
+}
+
+/// What an eye sees, and what measures answers by it.
+struct Seen_exactly {
+  Scene scene;
+  Exact_view view;
+  Visible_surface<Exact_view> surface;
+  Visible_reference reference;
+
+  explicit Seen_exactly(const harness::Posed_scene& posed)
+      : scene(posed.soup),
+        view(scene, posed.eye),
+        surface(visible_surface(view, Piece_boxes(scene), alone())),
+        reference(view, surface) {}
+};
+
 inline void try_visible(Random& random) {
   constexpr double sphere = 4 * std::numbers::pi, rounding = 1e-6, nearly_none = 1e-10;
   const std::optional<harness::Posed_scene> posed = any_scene(random, 8);
   if (!posed) return;
-  const Scene scene(posed->soup);
-  const Exact_view view(scene, posed->eye);
-  Visible_options options;
-  options.threads = 1;
-  const Visible_surface<Exact_view> surface = visible_surface(view, Piece_boxes(scene), options);
-  Visible_reference reference(view, surface);
-  const Visible_errors none = reference.errors(view, surface);
+  Seen_exactly seen(*posed);
+  const Scene& scene = seen.scene;
+  const Exact_view& view = seen.view;
+  const Visible_surface<Exact_view>& surface = seen.surface;
+  const Visible_errors none = seen.reference.errors(view, surface);
   require(none.wrong < nearly_none && none.gaps < nearly_none && none.overlaps < nearly_none &&
               none.tied < nearly_none && none.not_finite == 0,
           "an exact surface is not wrong by itself");
@@ -102,7 +120,7 @@ inline void try_visible(Random& random) {
   }
   double largest = 0;
   for (const auto& [face, of_face] : missing) largest = std::max(largest, of_face);
-  const Visible_errors found = reference.errors(view, answer);
+  const Visible_errors found = seen.reference.errors(view, answer);
   require(is_near(found.wrong, wrong, rounding) && is_near(found.gaps, gaps, rounding) &&
               is_near(found.overlaps, overlaps, rounding) && found.tied < nearly_none,
           "a part that is left out, twice there, or another face's is wrong by its solid angle");
@@ -118,12 +136,9 @@ inline void try_cube_pixels(Random& random) {
   using Numbers = Number_view<CGAL::Gmpq>;
   const std::optional<harness::Posed_scene> posed = any_scene(random, 8);
   if (!posed) return;
-  const Scene scene(posed->soup);
-  const Exact_view view(scene, posed->eye);
-  Visible_options options;
-  options.threads = 1;
-  const Visible_surface<Exact_view> surface = visible_surface(view, Piece_boxes(scene), options);
-  Visible_reference reference(view, surface);
+  Seen_exactly seen(*posed);
+  const Scene& scene = seen.scene;
+  const Exact_view& view = seen.view;
   Depth_buffer buffer;
   buffer.size = std::uint32_t{1} << random.below(3);
   Visible_surface<Numbers> cones;
@@ -148,7 +163,7 @@ inline void try_cube_pixels(Random& random) {
         }
       }
   cones.visible.assign(visible.begin(), visible.end());
-  const Visible_errors pixels = reference.errors(buffer), parts = reference.errors(numbers, cones);
+  const Visible_errors pixels = seen.reference.errors(buffer), parts = seen.reference.errors(numbers, cones);
   require(is_near(pixels.wrong, parts.wrong, rounding) && is_near(pixels.tied, parts.tied, rounding),
           "pixels are as wrong as the cones that they fill");
   require(parts.gaps < rounding && parts.overlaps < rounding && pixels.gaps == 0 && pixels.overlaps == 0,
@@ -166,13 +181,8 @@ inline void try_seen_areas(Random& random) {
   const Scene scene(posed->soup);
   const Pixel_view pixels = generate::any_pixel_view(posed->soup, posed->eye, random);
   const Exact_view view(scene, posed->eye, field_of(pixels));
-  Visible_options options;
-  options.threads = 1;
-  const Visible_surface<Exact_view> surface = visible_surface(view, Piece_boxes(scene), field_of_view(view), options);
-  const auto exact_vector = [](const std::array<double, 3>& v) {
-    return Exact_point{exact(v[0]), exact(v[1]), exact(v[2])};
-  };
-  const Exact_point right = exact_vector(pixels.right), up = exact_vector(pixels.up), look = exact_vector(pixels.look);
+  const Visible_surface<Exact_view> surface = visible_surface(view, Piece_boxes(scene), field_of_view(view), alone());
+  const Exact_point right = exact(pixels.right), up = exact(pixels.up), look = exact(pixels.look);
   const Rational all = dot(right, cross(up, look));
   std::vector<double> wanted(posed->soup.face_count());
   std::set<Face_id> seen;

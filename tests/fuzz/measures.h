@@ -265,10 +265,7 @@ inline void try_orders(Random& random) {
 
 /// The root of a rational, or less by up to 2^-100 of it.
 inline Rational root_below(const Rational& square) {
-  const long size =
-                 (static_cast<long>(bit_length(square.get_num())) - static_cast<long>(bit_length(square.get_den()))) /
-                 2,
-             places = 101 - size;
+  const long places = 101 - binary_exponent(square) / 2;
   const Rational scaled = times_power(square, 2 * places);
   return times_power(Rational(Integer(sqrt(Integer(scaled.get_num() / scaled.get_den())))), -places);
 }

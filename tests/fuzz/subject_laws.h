@@ -3,6 +3,7 @@
 // itself, which those commands ask after all their images of it, or of a share of them only: here one of them for each
 // scene, and images not.
 
+#include "any_case.h"
 #include "scene_laws.h"
 
 #include <sightline/harness/laws/fuzz.h>
@@ -39,8 +40,7 @@ inline void ask_a_law(const harness::Subject& subject, std::string_view bytes) {
   constexpr std::size_t most_faces = 24;
   Bytes from(bytes);
   Random random(from.word());
-  const std::vector<generate::Family>& families = generate::families();
-  const Posed_scene scene = harness::make(harness::draw_case(families[random.below(families.size())], random));
+  const Posed_scene scene = harness::make(any_case(random));
   if (scene.soup.face_count() > most_faces || (subject.wants_source && scene.source.empty())) return;
   const std::vector<harness::Check> checks = own_checks(subject);
   const harness::Check& check = checks[random.below(checks.size())];

@@ -2,6 +2,7 @@
 // What is open of a pair of source and target, cut by hand: events of the parts say what events of the whole do. And
 // what rays along axes hit first among rectangles.
 
+#include "any_case.h"
 #include "support.h"
 
 #include <sightline/algorithms/weak_visibility/events/event_search.h>
@@ -11,7 +12,6 @@
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
-#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/fuzz.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -49,8 +49,7 @@ inline std::array<Integer, 4> cut_across(const Near_polygon& polygon, generate::
 
 inline void try_parts_of_a_pair(generate::Random& random) {
   constexpr std::size_t most_pieces = 9;
-  const std::vector<generate::Family>& families = generate::families();
-  const harness::Posed_scene posed = harness::make(harness::draw_case(families[random.below(families.size())], random));
+  const harness::Posed_scene posed = harness::make(any_case(random));
   if (posed.source.empty()) return;
   const Scene scene(posed.soup);
   if (scene.pieces().empty() || scene.pieces().size() > most_pieces) return;
@@ -197,8 +196,7 @@ inline void try_axis_rays(generate::Random& random) {
 /// once.
 inline void try_segments(generate::Random& random) {
   constexpr std::size_t most_pieces = 60;
-  const std::vector<generate::Family>& families = generate::families();
-  const harness::Posed_scene posed = harness::make(harness::draw_case(families[random.below(families.size())], random));
+  const harness::Posed_scene posed = harness::make(any_case(random));
   const Scene scene(posed.soup);
   if (scene.pieces().empty() || scene.pieces().size() > most_pieces) return;
   const Occluders occluders(scene);

@@ -2,6 +2,7 @@
 // SIGHTLINE_LONG: so many times the scenes, for a long run.
 
 #include "scenes.h"
+#include "../fuzz/cell_proofs.h"
 #include "../sample.h"
 
 #include <sightline/algorithms/weak_visibility/search/cell_proofs.h>
@@ -18,71 +19,6 @@ using namespace sightline;
 using weak_scenes::Random;
 using weak_scenes::Weak_scene;
 
-/// A point inside a polygon, by weights that are often of very different sizes.
-std::array<Integer, 4> inner(const Near_polygon& polygon, Random& random) {
-  const std::uint64_t unequal = random.chance(1, 2) ? 1 : 40;
-  std::array<Integer, 4> sum{0, 0, 0, 0};
-  Integer common = 1;
-  for (const Near_point& p : polygon) common *= p.exact[3];
-  for (const Near_point& p : polygon) {
-    const Integer weight =
-        (Integer(static_cast<unsigned long>(1 + random.below(1000))) << random.below(unequal)) * (common / p.exact[3]);
-    for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * p.exact[k];
-  }
-  return sum;
-}
-
-/// A cell of the lines between a source and a target that pass the given lines as one of them does, and all ways to
-/// prove that there is none.
-class Cell_of_a_line {
- public:
-  Cell_of_a_line(const Occluders& occluders, const Weak_source& source, std::uint32_t target)
-      : occluders_(&occluders),
-        lines_(occluders),
-        proofs_(occluders, lines_, source.plane, occluders.plane(target)),
-        domain_(std::make_shared<const Near_polygon>(source.polygon),
-                std::make_shared<const Near_polygon>(occluders.polygon(target))) {
-    for (std::uint32_t piece = 0; piece < occluders.scene().pieces().size(); ++piece) lines_.of(piece);
-  }
-
-  /// How many of the ways say that there is no line on the sides that the line (p, q) is on, among some of the edges
-  /// that it does not meet.
-  std::size_t wrong_proofs(Random& random) {
-    const Exact_pluecker pair = pluecker_of_pair(inner(domain_.source, random), inner(domain_.target, random));
-    cell_ = {&domain_, &lines_, &occluders_->frame(), {}};
-    std::size_t wrong = 0, place = 0;
-    for (std::uint32_t line = 0; line < lines_.size(); ++line) {
-      const int sign = sgn(dot(pair, lines_[line].exact()));
-      if (sign == 0 || random.chance(1, 3)) continue;
-      const Side_row& row = domain_.row(lines_, line, occluders_->frame());
-      wrong += row.decided == -sign;
-      if (row.decided == 0) cell_.rows.push_back({place, {line, sign}, &row});
-      ++place;
-    }
-    if (cell_.rows.empty()) return wrong;
-    ++asked;
-    std::vector<Multiplier> proof;
-    proofs_.relax(cell_, counters);
-    wrong += proofs_.by_relaxation(cell_, proof, counters) == Cell_proofs::Relaxation::empty;
-    wrong += proofs_.by_exact_relaxation(cell_, proof, counters);
-    wrong += proofs_.at_corner(cell_, proof, counters);
-    for (const bool of_source : {true, false})
-      for (const bool thoroughly : {true, false})
-        wrong += proofs_.by_forms(cell_, of_source, thoroughly, proof, counters);
-    return wrong;
-  }
-
-  Weak_counters counters;
-  std::size_t asked = 0;
-
- private:
-  const Occluders* occluders_;
-  Edge_lines lines_;
-  Cell_proofs proofs_;
-  Line_domain domain_;
-  Line_cell cell_;
-};
-
 TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
   std::size_t asked = 0, exact = 0, forms = 0;
   for (const weak_scenes::Family& family : weak_scenes::families())
@@ -95,11 +31,11 @@ TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
       for (const Face_id face : scene.targets) {
         const auto piece =
             std::find_if(read.pieces().begin(), read.pieces().end(), [&](const Piece& p) { return p.face == face; });
-        Cell_of_a_line cell(occluders, source, static_cast<std::uint32_t>(piece - read.pieces().begin()));
-        for (int k = 0; k < 12; ++k) EXPECT_EQ(cell.wrong_proofs(random), 0u) << scene.name << ", face " << face;
-        asked += cell.asked;
-        exact += cell.counters.exact_programs;
-        forms += cell.counters.form_programs;
+        fuzz::Cells_of_lines cells(occluders, source, static_cast<std::uint32_t>(piece - read.pieces().begin()));
+        for (int k = 0; k < 12; ++k) EXPECT_NO_THROW(cells.try_with_a_line(random)) << scene.name << ", face " << face;
+        asked += cells.asked;
+        exact += cells.counters.exact_programs;
+        forms += cells.counters.form_programs;
       }
     }
   EXPECT_GT(asked, test_scenes::least(1000u));
