@@ -14,19 +14,35 @@ namespace sightline {
 
 namespace {
 
+using Whole_point = std::array<Integer, 3>;
+
+/// Points times the least common multiple of all denominators: differences and products of these need no gcd.
+std::vector<Whole_point> made_whole(const std::vector<Exact_point>& points) {
+  Integer common = 1;
+  for (const Exact_point& p : points)
+    for (const Rational& x : p)
+      if (x.get_den() != common) common = lcm(common, x.get_den());
+  std::vector<Whole_point> whole;
+  for (const Exact_point& p : points) {
+    Whole_point& at = whole.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) at[k] = p[k].get_num() * Integer(common / p[k].get_den());
+  }
+  return whole;
+}
+
 /// Which way points of one plane turn, seen from the side that its normal points to. Doubles tell it but for points
 /// that are nearly in line.
 class Turns {
  public:
   /// Pre: the points are in a plane of this normal, which is not 0.
-  Turns(const std::vector<Exact_point>& points, const Exact_point& normal) {
+  Turns(const std::vector<Whole_point>& points, const Whole_point& normal) {
     std::size_t axis = 0;
     while (sgn(normal[axis]) == 0) ++axis;
     is_turned_ = sgn(normal[axis]) < 0;
     const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-    for (const Exact_point& p : points) {
-      exact_.push_back({Rational(p[x] - points[0][x]), Rational(p[y] - points[0][y])});
-      near_.push_back({nearest_double(exact_.back()[0]), nearest_double(exact_.back()[1])});
+    for (const Whole_point& p : points) {
+      exact_.push_back({Integer(p[x] - points[0][x]), Integer(p[y] - points[0][y])});
+      near_.push_back({exact_.back()[0].get_d(), exact_.back()[1].get_d()});
       for (const double c : near_.back()) size_ = std::max(size_, std::fabs(c));
     }
   }
@@ -44,17 +60,17 @@ class Turns {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
   }
   int seen_along_the_axis(std::size_t a, std::size_t b, std::size_t c) const {
-    // Coordinates are within 2^-53 of the largest, so are four differences of at most twice its size: in all less than
-    // 48 * 2^-53 of its square.
-    if (size_ > 0x1p-400 && size_ < 0x1p400) {
-      const double doubled = area(near_[a], near_[b], near_[c]), error = 0x1p-47 * size_ * size_;
+    // Coordinates are within 2^-52 of the largest, differences of at most twice its size within 3 * 2^-52: in all less
+    // than 32 * 2^-52 of its square.
+    if (size_ < 0x1p400) {
+      const double doubled = area(near_[a], near_[b], near_[c]), error = 0x1p-46 * size_ * size_;
       if (doubled > error) return 1;
       if (doubled < -error) return -1;
     }
     return sgn(area(exact_[a], exact_[b], exact_[c]));
   }
 
-  std::vector<Flat_point<Rational>> exact_;
+  std::vector<Flat_point<Integer>> exact_;
   std::vector<Flat_point<double>> near_;
   double size_ = 0;
   bool is_turned_ = false;
@@ -72,26 +88,27 @@ std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points) 
         "a source has fewer than three points; give the corners of a convex polygon, counterclockwise as seen from the "
         "side it looks to");
   // Newell's normal; then each corner turns left around it, and all turn around once.
-  Exact_point normal{0, 0, 0};
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const Exact_point part = cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0]));
+  const std::vector<Whole_point> whole = made_whole(corners);
+  Whole_point normal{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < whole.size(); ++i) {
+    const Whole_point part = cross(minus(whole[i], whole[0]), minus(whole[i + 1], whole[0]));
     for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
   }
   if (is_zero(normal))
     throw std::invalid_argument(
         "a source has no area; give the corners of a convex polygon, counterclockwise as seen from the side it looks "
         "to");
-  for (const Exact_point& p : corners)
-    if (sgn(dot(normal, minus(p, corners[0]))) != 0)
+  for (const Whole_point& p : whole)
+    if (sgn(dot(normal, minus(p, whole[0]))) != 0)
       throw std::invalid_argument("a source is not planar; cut it into triangles and give each of them");
   const char* const not_convex = "a source is not convex; cut it into convex polygons and give each of them";
-  const Turns turns(corners, normal);
+  const Turns turns(whole, normal);
   const std::size_t count = corners.size();
   std::vector<std::size_t> strict;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t before = (i + count - 1) % count, after = (i + 1) % count;
     const int turn = turns.of(before, i, after);
-    if (turn < 0 || (turn == 0 && sgn(dot(minus(corners[i], corners[before]), minus(corners[after], corners[i]))) < 0))
+    if (turn < 0 || (turn == 0 && sgn(dot(minus(whole[i], whole[before]), minus(whole[after], whole[i]))) < 0))
       throw std::invalid_argument(not_convex);
     if (turn > 0) strict.push_back(i);
   }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace sightline::generate {
 
@@ -13,6 +14,18 @@ namespace {
 
 std::array<double, 3> rounded(const Exact_point& v) {
   return {nearest_double(v[0]), nearest_double(v[1]), nearest_double(v[2])};
+}
+
+/// One of the directions moved close to the plane of the others: beside it by 2^-52 to 2^-5 of an entry.
+void flatten(Pixel_view& view, Random& random) {
+  std::array<double, 3>* directions[] = {&view.look, &view.right, &view.up};
+  std::swap(directions[2], directions[random.below(3)]);
+  auto& [first, second, moved] = directions;
+  const double some = static_cast<double>(random.between(-4, 4)) / 3,
+               more = static_cast<double>(random.between(1, 4)) / 4;
+  for (std::size_t k = 0; k < 3; ++k) (*moved)[k] = some * (*first)[k] + more * (*second)[k];
+  double& entry = (*moved)[random.below(3)];
+  entry += std::ldexp(entry == 0 ? 1 : entry, -static_cast<int>(random.between(5, 52)));
 }
 
 }  // namespace
@@ -46,8 +59,10 @@ Pixel_view any_pixel_view(const Polygon_soup& soup, const Exact_point& eye, Rand
         view.up[k] = small();
       }
     }
+    if (random.chance(1, 5)) flatten(view, random);
     const auto is_finite = [](const std::array<double, 3>& v) { return std::isfinite(v[0] + v[1] + v[2]); };
-    if (!is_finite(view.look) || !is_finite(view.right)) continue;  // the scene is beyond doubles
+    if (!is_finite(view.look) || !is_finite(view.right) || !is_finite(view.up))
+      continue;  // the scene is beyond doubles
     if (sgn(dot(exact(view.look), cross(exact(view.right), exact(view.up)))) != 0) return view;
   }
 }

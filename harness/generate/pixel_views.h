@@ -8,8 +8,8 @@
 namespace sightline::generate {
 
 /// A view of the scene from the eye, of 5 to 16 pixels each way: with dyadic directions along the axes, so that centres
-/// meet lattice points; with the middle of the image at a corner and one axis along an edge; or any. Its directions
-/// span the space, either way round. Pre: the scene has a point.
+/// meet lattice points; with the middle of the image at a corner and one axis along an edge; or any; one in
+/// five with directions that are nearly in a plane. They span the space, either way round. Pre: the scene has a point.
 Pixel_view any_pixel_view(const Polygon_soup& soup, const Exact_point& eye, Random& random);
 
 }  // namespace sightline::generate

@@ -235,7 +235,9 @@ Layer by_weights(const std::vector<Depth_hit>& hits, const std::vector<Tint>& ti
 std::string flaw_of_image(const Depth_case& drawn, Random& random) {
   if (drawn.scene.pieces().empty()) return {};
   const Pixel_view pixels = generate::any_pixel_view(drawn.soup, drawn.eye, random);
-  if (dot(pixels.look, cross(pixels.right, pixels.up)) == 0) return {};  // rounded, its directions span no space
+  const double volume = dot(pixels.look, cross(pixels.right, pixels.up)),
+               sizes = dot(pixels.look, pixels.look) * dot(pixels.right, pixels.right) * dot(pixels.up, pixels.up);
+  if (!(volume * volume > 1e-6 * sizes)) return {};  // directions nearly in a plane, of which floats know little
   const std::vector<Tint> tints = any_tints(drawn.scene.pieces().size(), random);
   const Depth_image image = depth_image(drawn.scene, pixels, drawn.options);
   const Blended_depth blended = depth_blended(drawn.scene, pixels, tints, drawn.options),

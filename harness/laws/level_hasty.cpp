@@ -6,6 +6,7 @@
 #include <sightline/harness/laws/level_checks.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -38,6 +39,15 @@ std::string flaw_of(const Rows& visible, const Rows& undecided, const Rows& all_
   return {};
 }
 
+/// Where something is undecided although nothing was spared.
+std::string gap_in(const Rows& undecided, const std::string& what) {
+  for (std::size_t cell = 0; cell < undecided.size(); ++cell)
+    if (!undecided[cell].empty())
+      return "cell " + std::to_string(cell) + " and " + what + ' ' + std::to_string(undecided[cell].front()) +
+             " are undecided after all events";
+  return {};
+}
+
 /// The union of two parts, row by row.
 void add(Rows& rows, const Rows& more) {
   rows.resize(more.size());
@@ -55,9 +65,12 @@ Outcome run(const Posed_scene& posed, const Answer&, Random& random) {
   Pvs_options haste = leisure;
   haste.search.cells = 1 + random.below(6);
   haste.search.rays = static_cast<int>(random.below(3));
-  haste.event_edges = random.chance(1, 2) ? 0 : 10;
+  constexpr std::size_t all_edges = 1000, forever = ~std::size_t{0};
+  constexpr std::array<std::size_t, 3> event_edges{0, 10, all_edges};
+  haste.event_edges = event_edges[random.below(posed.soup.face_count() <= most_faces / 2 ? 3 : 2)];
   std::size_t asked = 0;
-  const std::size_t patience = random.chance(1, 2) ? ~std::size_t{0} : random.below(2000);
+  const std::size_t patience = random.chance(1, 2) ? forever : random.below(2000);
+  const bool is_thorough = haste.event_edges == all_edges && patience == forever;  // events decide what is left
   haste.search.out_of_time = [&] { return ++asked > patience; };
   const auto parts = static_cast<std::uint32_t>(1 + random.below(3));
 
@@ -69,8 +82,9 @@ Outcome run(const Posed_scene& posed, const Answer&, Random& random) {
     add(undecided, part.undecided);
   }
   const Pvs faces = potentially_visible(level, leisure);
-  if (const std::string flaw = flaw_of(visible, undecided, faces.visible, faces.undecided, "face"); !flaw.empty())
-    return Outcome::failed(flaw);
+  std::string flaw = flaw_of(visible, undecided, faces.visible, faces.undecided, "face");
+  if (flaw.empty() && is_thorough) flaw = gap_in(undecided, "face");
+  if (!flaw.empty()) return Outcome::failed(flaw);
 
   // 2. Cells, their parts asked of one object or of several.
   visible.clear();
@@ -83,15 +97,18 @@ Outcome run(const Posed_scene& posed, const Answer&, Random& random) {
     add(undecided, part.undecided);
   }
   const Cell_pvs cells = mutually_visible_cells(level, leisure);
-  const std::string flaw = flaw_of(visible, undecided, cells.visible, cells.undecided, "cell");
+  flaw = flaw_of(visible, undecided, cells.visible, cells.undecided, "cell");
+  if (flaw.empty() && is_thorough) flaw = gap_in(undecided, "cell");
   return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
 }
 
 }  // namespace hasty_levels
 
 Check hasty_levels_check() {
-  return {"hasty", "what little search decides is what more does, in parts and where time runs out too",
-          hasty_levels::run};
+  return {
+      "hasty",
+      "what little search decides is what more does, in parts and where time runs out too; with events it decides all",
+      hasty_levels::run};
 }
 
 }  // namespace sightline::harness
