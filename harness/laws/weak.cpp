@@ -27,6 +27,7 @@
 #include <sightline/harness/laws/weak_open.h>
 #include <sightline/harness/laws/weak_options.h>
 #include <sightline/harness/laws/weak_partition.h>
+#include <sightline/harness/laws/weak_shares.h>
 #include <sightline/harness/laws/weak_surfaces.h>
 #include <sightline/harness/laws/weak_volume.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -167,6 +168,7 @@ Subject weak() {
   subject.checks.push_back(manners_check(questions_of_weak()));
   subject.checks.push_back(empty_scenes_check(subject.verified));
   subject.checks.push_back(surfaces_check());
+  subject.checks.push_back(shares_check());
   return subject;
 }
 

