@@ -159,6 +159,18 @@ inline void try_weak_lists(Random& random) {
           "faces of weak visibility are wrong as lists say");
 }
 
+/// Whether a scene's coordinates and a point's are integers below 2^bits. Then a face of up to 16 corners has a normal
+/// below 2^(2 bits + 6), and heights are sums below 2^(3 bits + 10).
+inline bool are_small_integers(const Polygon_soup& soup, const Exact_point& point, int bits) {
+  const auto is_small = [&](const Rational& x) { return x.get_den() == 1 && abs(x.get_num()) < Integer(1) << bits; };
+  const auto all_small = [&](const Exact_point& p) { return std::all_of(p.begin(), p.end(), is_small); };
+  for (Point_id p = 0; p < soup.point_count(); ++p)
+    if (!all_small(soup.point(p))) return false;
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    if (soup.loop(f).size() > 16) return false;
+  return all_small(point);
+}
+
 inline void try_cut_sets(Random& random) {
   const std::optional<harness::Posed_scene> posed = any_scene(random, 20);
   if (!posed) return;
@@ -186,6 +198,11 @@ inline void try_cut_sets(Random& random) {
     wrong += says_so != is_cut;
   }
   require(cut_set_errors(graph, on, said, cut) == wrong, "nodes and edges of a cut-set are wrong where they differ");
+  const Viewpoint view{at, at_infinity};
+  if (are_small_integers(posed->soup, at, 12))
+    require(Rounded_planes<double>(graph).on_view(view) == on, "of small integers doubles tell what is on-view");
+  if (are_small_integers(posed->soup, at, 3))
+    require(Rounded_planes<float>(graph).on_view(view) == on, "of very small integers floats tell what is on-view");
 }
 
 // ---- Orders
@@ -234,6 +251,13 @@ inline void try_orders(Random& random) {
   require(found.lost == 0 && found.overlapping == 0 && found.outside == 0, "whole pieces are all that there is");
   // 2. One of them otherwise.
   const std::size_t chosen = random.below(order.size());
+  if (order[chosen].vertices.size() > 3 && random.chance(1, 3)) {  // its loop crosses itself
+    std::swap(order[chosen].vertices[0], order[chosen].vertices[1]);
+    const Order_errors crossed = measured();
+    require(crossed.degenerate == 1 && crossed.wrong <= wrong, "a fragment whose loop crosses itself is degenerate");
+    require(crossed.lost == 0 && crossed.outside == 0, "and stands for its hull");
+    return;
+  }
   Points& corners = order[chosen].vertices;
   const Exact_point normal = faces[places[chosen]].normal;
   const Rational whole = projected(corners, normal);
