@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace sightline::generate {
@@ -16,7 +17,8 @@ std::array<double, 3> rounded(const Exact_point& v) {
   return {nearest_double(v[0]), nearest_double(v[1]), nearest_double(v[2])};
 }
 
-/// One of the directions moved close to the plane of the others: beside it by 2^-52 to 2^-5 of an entry.
+}  // namespace
+
 void flatten(Pixel_view& view, Random& random) {
   std::array<double, 3>* directions[] = {&view.look, &view.right, &view.up};
   std::swap(directions[2], directions[random.below(3)]);
@@ -28,7 +30,13 @@ void flatten(Pixel_view& view, Random& random) {
   entry += std::ldexp(entry == 0 ? 1 : entry, -static_cast<int>(random.between(5, 52)));
 }
 
-}  // namespace
+void stretch(Pixel_view& view, Random& random) {
+  const std::int64_t most = random.chance(1, 2) ? 300 : 8;
+  for (std::array<double, 3>* direction : {&view.look, &view.right, &view.up}) {
+    const auto power = static_cast<int>(random.between(-most, most));
+    for (double& x : *direction) x = std::ldexp(x, power);
+  }
+}
 
 Pixel_view any_pixel_view(const Polygon_soup& soup, const Exact_point& eye, Random& random) {
   const auto point = [&] { return soup.point(static_cast<Point_id>(random.below(soup.point_count()))); };
@@ -60,6 +68,7 @@ Pixel_view any_pixel_view(const Polygon_soup& soup, const Exact_point& eye, Rand
       }
     }
     if (random.chance(1, 5)) flatten(view, random);
+    if (random.chance(1, 8)) stretch(view, random);
     const auto is_finite = [](const std::array<double, 3>& v) { return std::isfinite(v[0] + v[1] + v[2]); };
     if (!is_finite(view.look) || !is_finite(view.right) || !is_finite(view.up))
       continue;  // the scene is beyond doubles

@@ -237,7 +237,8 @@ std::string flaw_of_image(const Depth_case& drawn, Random& random) {
   const Pixel_view pixels = generate::any_pixel_view(drawn.soup, drawn.eye, random);
   const double volume = dot(pixels.look, cross(pixels.right, pixels.up)),
                sizes = dot(pixels.look, pixels.look) * dot(pixels.right, pixels.right) * dot(pixels.up, pixels.up);
-  if (!(volume * volume > 1e-6 * sizes)) return {};  // directions nearly in a plane, of which floats know little
+  // Directions nearly in a plane, or of very different lengths, of which floats know little.
+  if (!(volume * volume > 1e-6 * sizes) || !(sizes > 0x1p-60 && sizes < 0x1p60)) return {};
   const std::vector<Tint> tints = any_tints(drawn.scene.pieces().size(), random);
   const Depth_image image = depth_image(drawn.scene, pixels, drawn.options);
   const Blended_depth blended = depth_blended(drawn.scene, pixels, tints, drawn.options),

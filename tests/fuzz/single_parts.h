@@ -1,12 +1,13 @@
 #pragma once
 // Parts of the library by themselves, at the bounds of what they are asked: boxes for rays, matrix games, moments of a
-// path, tables of planes, vertices of a CGAL kernel, points rounded to numbers, and what is left of faces that are
-// hardly any.
+// path, tables of planes, vertices of a CGAL kernel, points rounded to numbers, places in an image, and what is left of
+// faces that are hardly any.
 
 #include "decimal.h"
 #include "refusals.h"
 #include "support.h"
 
+#include <sightline/algorithms/image/pixel_cones.h>
 #include <sightline/algorithms/rays/ray_boxes.h>
 #include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/verify/faces.h>
@@ -15,6 +16,7 @@
 #include <sightline/algorithms/verify/surface.h>
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/algorithms/weak_visibility/search/matrix_game.h>
+#include <sightline/harness/generate/pixel_views.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/kernel/coordinates.h>
 #include <sightline/kernel/fixed_integer.h>
@@ -494,6 +496,39 @@ inline void try_hardly_faces(Random& random) {
   require(refused({0, 5, 1, 6, 14}, random.chance(1, 2)), "what is simple along no axis is no surface of nothing");
 }
 
+// ---- Places in an image
+
+/// A direction has its place within the bound that is told, also where the axes of the image are nearly in a plane and
+/// of very different lengths.
+inline void try_places(Random& random) {
+  Pixel_view view{{0, 0, 0}, {}, {}, {}, 1 + static_cast<std::uint32_t>(random.below(200)), 7};
+  for (std::array<double, 3>* axis : {&view.look, &view.right, &view.up})
+    for (double& x : *axis) x = static_cast<double>(random.between(-1000, 1000)) / 8;
+  if (random.chance(3, 4)) generate::flatten(view, random);
+  if (random.chance(3, 4)) generate::stretch(view, random);
+  const Exact_point look = exact(view.look), right = exact(view.right), up = exact(view.up);
+  if (sgn(dot(look, cross(right, up))) == 0) return;
+  const image_detail::Pixel_centres centres(view);
+  const auto share = [&] { return Rational(static_cast<long>(random.between(-64, 64)), 64l); };
+  const Rational across = share(), upwards = random.chance(1, 2) ? Rational(0) : share();
+  Exact_point direction;
+  Rational most = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    direction[k] = look[k] + across * right[k] + upwards * up[k];
+    most = std::max(most, Rational(abs(direction[k])));
+  }
+  if (most == 0) return;
+  const long power = -binary_exponent(most);  // a multiple that doubles hold well
+  Approximate_vector rounded{};
+  double* const entries[] = {&rounded.x, &rounded.y, &rounded.z};
+  for (std::size_t k = 0; k < 3; ++k) *entries[k] = nearest_double(times_power(direction[k], power));
+  const auto place = centres.place(rounded, 0x1p-52);
+  if (!place || !std::isfinite(place->error)) return;
+  require(abs(Rational(exact(place->across) - across)) <= exact(place->error) &&
+              abs(Rational(exact(place->upwards) - upwards)) <= exact(place->error),
+          "a direction's place in an image is off by no more than is told");
+}
+
 // ---- Points rounded to numbers
 
 /// A number beside the middle between two neighbouring floats or doubles, or on it; also the smallest and the largest.
@@ -619,7 +654,7 @@ inline void try_coordinates(Random& random) {
 
 inline void single_parts(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(11);
+  const std::size_t kind = from.below(12);
   Random random(from.word());
   switch (kind) {
     case 0: return try_ray_boxes(random);
@@ -632,6 +667,9 @@ inline void single_parts(std::string_view bytes) {
     case 7: return try_rounding<float>(random);
     case 8: return try_rounding<double>(random);
     case 9: return try_coordinates(random);
+    case 10:
+      for (int k = 0; k < 20; ++k) try_places(random);
+      return;
     default: return try_hardly_faces(random);
   }
 }

@@ -7,7 +7,9 @@
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/pixel_cones.h>
 
+#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/pixel_views.h>
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/kernel/vectors.h>
 
 #include <gtest/gtest.h>
@@ -104,6 +106,32 @@ TEST(Pixel_forms, of_products_beyond_doubles_leave_sides_to_integers) {
     const auto [first, last] = cones.columns(0, y, counters);
     EXPECT_EQ(last - first, inside) << y;
     EXPECT_EQ(inside, 3);
+  }
+}
+
+TEST(Pixel_centres, of_axes_that_doubles_multiply_to_zero_lose_no_pixel) {
+  // look and right nearly one way and so short that the product of their squares is 0, up so long that the volume of
+  // all three is not: places in doubles were off by more than was allowed for.
+  constexpr double l = 1e-82, t = 1e-91, u = 1e60;
+  const Pixel_view pixels{{0, 0, 0}, {l, l, l}, {l + t, l - t, l}, {u, u, -2 * u}, 101, 1};
+  const auto at = [&](const Rational& across, double upwards) {
+    Exact_point p = exact(pixels.look);
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] += across * exact(pixels.right)[k] + exact(upwards) * exact(pixels.up)[k];
+      p[k] *= generate::power_of_two(272);
+    }
+    return p;
+  };
+  for (const long last : {2l, 22l, 69l, 75l, 84l}) {
+    const Rational from(-1), to(2 * last - 100, 101l);  // it ends at the centre of a pixel
+    const Scene scene(generate::soup_of({{at(from, -1e-142), at(to, -1e-142), at(to, 1e-142), at(from, 1e-142)}}));
+    const oracle::Flats flats = oracle::flats_of(scene);
+    const Piece_image image = centres(Exact_view(scene, pixels.eye), pixels);
+    for (std::uint32_t x = 0; x < pixels.width; ++x) {
+      const Hit hit = brute_hit(flats, pixels.eye, pixels.centre(x, 0));
+      EXPECT_EQ(image.pieces[x], hit.piece) << "to " << last << ", pixel " << x;
+      EXPECT_EQ(hit.piece == Piece_image::nothing, x > last);
+    }
   }
 }
 
