@@ -12,10 +12,14 @@
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
+#include <sightline/harness/generate/families.h>
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/fuzz.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -221,12 +225,55 @@ inline void try_segments(generate::Random& random) {
   }
 }
 
+/// Segments through points of an edge, or as little beside it as 2^-60 of its length, of a triangle with a corner in
+/// the middle of the scene, where the doubles of that corner are 0: they are blocked iff they meet a triangle.
+inline void try_middle_corner(generate::Random& random) {
+  const auto any = [&] {
+    Exact_point p;
+    for (Rational& x : p) x = exact(static_cast<double>(random.between(-(1l << 52), 1l << 52)) * 0x1p-50);
+    return p;
+  };
+  const Exact_point zero{0, 0, 0}, b = any(), c = any(), n = cross(b, c);
+  if (is_zero(n)) return;
+  const auto times = [&](long factor, const Exact_point& p) { return generate::along(zero, factor, p); };
+  // The other one makes the box about both even, and lies on the other side of the middle.
+  const std::vector<generate::Points> corners{{zero, b, c},
+                                              {times(-1, b), times(-1, c), times(-1, generate::along(b, 1, c))},
+                                              {generate::along(b, 1, c), b, c}};
+  const Polygon_soup soup = generate::soup_of(corners);
+  const Scene scene(soup);
+  if (scene.pieces().size() != corners.size()) return;
+  const Occluders occluders(scene);
+  const std::vector<harness::Flat_face> faces = harness::flat_faces_of(scene);
+  const auto near = [&](const Exact_point& p) {
+    const Located_point at = scene.locate(p);
+    return near_point(occluders.frame(), {at.x, at.y, at.z, at.w});
+  };
+  for (int turn = 0; turn < 8; ++turn) {
+    const Rational share = generate::integer(random, 1, 1000) / 1001;
+    Exact_point m = generate::along(zero, share, random.chance(1, 2) ? b : c);
+    const Exact_point inwards = minus(generate::along(b, 1, c), m), d = any();
+    m = generate::along(m, random.between(-1, 1) * generate::power_of_two(-60), inwards);
+    const Exact_point p = generate::along(m, 1, d), q = generate::along(m, -1, d);
+    const auto is_met = [&](const harness::Flat_face& face) {
+      const Rational at_p = face.height(p), at_q = face.height(q);
+      return sgn(at_p) * sgn(at_q) < 0 &&
+             face.side_within(generate::along(p, Rational(at_p / (at_p - at_q)), minus(q, p))) >= 0;
+    };
+    if (std::any_of(faces.begin(), faces.end(), [&](const auto& f) { return f.height(p) == 0 || f.height(q) == 0; }))
+      continue;
+    const bool is_blocked = occluders.blocker(near(p), near(q), occluders.plane(0), occluders.plane(0)).has_value();
+    require(is_blocked == std::any_of(faces.begin(), faces.end(), is_met), "a segment is blocked iff it meets a face");
+  }
+}
+
 inline void weak_parts(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(6);
+  const std::size_t kind = from.below(7);
   generate::Random random(from.word());
   if (kind == 0) try_axis_rays(random);
   else if (kind == 1) try_segments(random);
+  else if (kind == 2) try_middle_corner(random);
   else try_parts_of_a_pair(random);
 }
 
