@@ -20,12 +20,6 @@ namespace {
 
 using Shares = std::array<Bounded, lights>;
 
-/// A scene with a face in one piece, and what looks at it.
-struct Lit_face {
-  const Scene& scene;
-  std::uint32_t piece;
-};
-
 std::optional<std::uint32_t> only_piece_of(const Scene& scene, Face_id face) {
   std::optional<std::uint32_t> only;
   for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
@@ -37,13 +31,13 @@ std::optional<std::uint32_t> only_piece_of(const Scene& scene, Face_id face) {
 }
 
 /// Nothing where a part is undecided.
-std::optional<Shares> shares_of(const Lit_face& lit, const std::vector<generate::Points>& sources) {
+std::optional<Shares> shares_of(const Scene& scene, std::uint32_t piece, const std::vector<generate::Points>& sources) {
   constexpr std::size_t most_rectangles = 1500;
   std::size_t asked = 0;
   Partition_options options;
   options.out_of_time = [&] { return ++asked > most_rectangles; };
   Partition_counters counters;
-  const Light_partition partition = Light_partitioner(lit.scene).partition(lit.piece, sources, options, counters);
+  const Light_partition partition = Light_partitioner(scene).partition(piece, sources, options, counters);
   for (const auto& cell : partition.cells)
     if (cell.light == Light::undecided) return std::nullopt;
   return partition.shares();
@@ -100,11 +94,11 @@ Check shares_check() {
             const Face_id face = scene.pieces()[random.below(scene.pieces().size())].face;
             const auto piece = only_piece_of(scene, face);
             if (!piece || answer.labels[face] == Answer::none) return Outcome::not_applicable();
-            const std::optional<Shares> shares = shares_of({scene, *piece}, {posed.source});
+            const std::optional<Shares> shares = shares_of(scene, *piece, {posed.source});
             if (!shares) return Outcome::undecided();
 
             // 1. From the source in two parts all is seen where both are, and nothing where neither is.
-            const std::optional<Shares> by_parts = shares_of({scene, *piece}, two_parts(posed.source, random));
+            const std::optional<Shares> by_parts = shares_of(scene, *piece, two_parts(posed.source, random));
             if (by_parts)
               if (const std::string flaw = difference(*shares, *by_parts); !flaw.empty())
                 return Outcome::failed(face_name(face) + ": " + flaw + " from the source in two parts");
@@ -115,7 +109,7 @@ Check shares_check() {
             const Scene moved(image->scene.soup);
             const auto other = only_piece_of(moved, face);
             if (!other || moved.bits() > most_bits_of_images) return Outcome{};
-            const std::optional<Shares> of_image = shares_of({moved, *other}, {image->scene.source});
+            const std::optional<Shares> of_image = shares_of(moved, *other, {image->scene.source});
             if (!of_image) return Outcome{};
             const std::string flaw = difference(*shares, *of_image);
             return flaw.empty() ? Outcome{} : Outcome::failed(face_name(face) + ": " + flaw + " in an image");

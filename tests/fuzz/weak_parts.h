@@ -236,7 +236,7 @@ inline void try_middle_corner(generate::Random& random) {
   const Exact_point zero{0, 0, 0}, b = any(), c = any(), n = cross(b, c);
   if (is_zero(n)) return;
   const auto times = [&](long factor, const Exact_point& p) { return generate::along(zero, factor, p); };
-  // The other one makes the box about both even, and lies on the other side of the middle.
+  // The others make the box about all even.
   const std::vector<generate::Points> corners{{zero, b, c},
                                               {times(-1, b), times(-1, c), times(-1, generate::along(b, 1, c))},
                                               {generate::along(b, 1, c), b, c}};
