@@ -104,8 +104,9 @@ bool is_inside_out(const Polygon_soup& solid) {
           p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
     }
   }
-  const double lost = 0x1p-40 * terms * farthest * farthest * farthest;  // far more than 6 products a term do
-  return !(sum > lost) && volume(solid) < 0;
+  // Far more than 6 products a term do, and what underflows; and none of them is too large.
+  const double lost = 0x1p-40 * terms * farthest * farthest * farthest + 0x1p-900 * (1 + farthest);
+  return !(sum > lost && farthest < 0x1p300) && volume(solid) < 0;
 }
 
 /// What the user may not know of the solids: what was set aside or cut into triangles, and what is inside out.

@@ -44,13 +44,8 @@ Pixel_centres::Pixel_centres(const Pixel_view& view) : view_(view) {
   const auto fine = [&](const std::array<double, 3>& half, std::uint32_t count) {  // too many pixels for doubles
     return !(dot(view.look, view.look) * count * count < 0x1p39 * dot(half, half));
   };
-  // Of lengths between 2^-100 and 2^100 no product below is too large or too small for doubles.
-  const bool is_moderate = std::ranges::all_of(given, [](const std::array<double, 3>* axis) {
-    const double square = dot(*axis, *axis);
-    return square > 0x1p-200 && square < 0x1p200;
-  });
-  has_places_ =
-      is_moderate && volume * volume > 1e-6 * sizes && !fine(view.right, view.width) && !fine(view.up, view.height);
+  has_places_ = view.is_moderate() && volume * volume > 1e-6 * sizes && !fine(view.right, view.width) &&
+                !fine(view.up, view.height);
   if (!has_places_) return;
   skewness_ = std::sqrt(sizes) / std::fabs(volume);
   for (const auto* axis : given) longest_ = std::max(longest_, 1 / std::sqrt(dot(*axis, *axis)));

@@ -46,6 +46,7 @@ double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[
 
 constexpr double tiny = 0x1p-900;  // more than what underflows
 constexpr double far_away = 8;     // as far an origin may be
+constexpr double too_far = 0x1p500;
 
 /// The greatest coordinate of a direction, in size.
 Rational largest(const Exact_point& direction) {
@@ -149,7 +150,7 @@ Ray_tracer::Ray Ray_tracer::prepared(const Exact_ray& exact) const {
     const Located_point at = scene_->locate(origin);
     ray.at.origin = {at.ax * scale_, at.ay * scale_, at.az * scale_};
     ray.at.error = at.error * scale_ + tiny;
-    if (!(ray.at.error < 0x1p500)) {  // doubles do not hold it
+    if (!(ray.at.error < too_far && largest(ray.at.origin) < too_far)) {  // doubles do not hold what is made of it
       if (ray.shift) break;
       const std::optional<Rational> start = start_from_afar(exact);
       if (!start) {
@@ -441,7 +442,7 @@ Ray_tracer::Ray_tracer(const Scene& scene) : scene_(&scene), grid_(scene) {
   const Exact_point centre = scene.position({0, 0, 0, 1});
   int exponent = 0;
   std::frexp(points.range(), &exponent);
-  scale_ = std::ldexp(1.0, -exponent);
+  scale_ = std::ldexp(1.0, std::min(-exponent, 1000));
   per_unit_ = sightline::exact(scale_) / (grid_.step() * points.divisor());
   mpq_div_2exp(per_unit_.get_mpq_t(), per_unit_.get_mpq_t(), static_cast<mp_bitcnt_t>(points.shift()));
   about_per_unit_ = nearest_double(per_unit_);
@@ -452,7 +453,7 @@ Ray_tracer::Ray_tracer(const Scene& scene) : scene_(&scene), grid_(scene) {
     else about_per_unit_ = 0;
   }
   if (!(about_per_unit_ > 0x1p-900 && about_per_unit_ < 0x1p900)) about_per_unit_ = 0;
-  corner_error_ = points.bits() <= 53 ? 0 : 0x1p-51;
+  corner_error_ = (points.bits() <= 53 ? 0 : 0x1p-51) + 0x1p-1074 * scale_;  // rounding, and what underflows
 
   // 2. Which pieces a face has.
   const std::vector<Piece>& pieces = scene.pieces();

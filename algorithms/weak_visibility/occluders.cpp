@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_planes = 64;  // bits of a word
 
 /// Planes with both polygons on them or in front: through an edge of one and a corner of the other, and around all of
-/// them; less a little of their distance.
+/// them; less a little of their distance, of which half is more than what is lost to rounding. Proof: P-70
 std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Near_polygon& t) {
   std::vector<std::array<double, 4>> planes;
   double reach = 1;
@@ -24,7 +24,7 @@ std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Nea
   const double little = 1e-9 * reach;
   const auto add = [&](Triple n, const Triple& through) {
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    if (!(length > 1e-150)) return;
+    if (!(length > 1e-150 && std::isfinite(length))) return;
     for (double& x : n) x /= length;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (const Near_polygon* polygon : {&s, &t})
@@ -35,8 +35,9 @@ std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Nea
         most = std::max(most, height);
       }
     const double offset = n[0] * through[0] + n[1] * through[1] + n[2] * through[2];
-    if (least > -little) planes.push_back({n[0], n[1], n[2], little - offset});
-    else if (most < little) planes.push_back({-n[0], -n[1], -n[2], little + offset});
+    if (!std::isfinite(offset)) return;
+    if (least > -little / 2) planes.push_back({n[0], n[1], n[2], little - offset});
+    else if (most < little / 2) planes.push_back({-n[0], -n[1], -n[2], little + offset});
   };
   for (int turn = 0; turn < 2; ++turn) {
     const Near_polygon &own = turn == 0 ? s : t, &other = turn == 0 ? t : s;

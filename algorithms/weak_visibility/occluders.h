@@ -54,8 +54,8 @@ class Occluders {
   std::optional<int> small_side(const Near_point& p, const Near_point& q,
                                 const std::array<std::uint32_t, 2>& points) const;
 
-  /// The pieces that may meet a segment between the two polygons: those that no plane beside both of them, nor a box,
-  /// keeps away; by rank. In doubles, for proposals.
+  /// All pieces that meet a segment between the two polygons, and others that no plane beside both of them keeps away;
+  /// by rank. Exact: none is missing. Proof: P-70
   std::vector<std::uint32_t> near_shaft(const Near_polygon& s, const Near_polygon& t) const;
   /// Of a piece in the tree of boxes: those that are near each other mostly have ranks that are.
   std::uint32_t rank(std::uint32_t piece) const { return first_[piece]; }

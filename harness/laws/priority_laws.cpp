@@ -6,6 +6,7 @@
 #include <sightline/algorithms/priority/relation.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/tree.h>
+#include <sightline/harness/generate/pixel_views.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/exact_traits.h>
@@ -192,6 +193,8 @@ std::optional<Pixel_view> any_view(const Posed_scene& posed, const std::vector<F
       view.right[k] /= 8;
       view.up[k] /= 8;
     }
+  if (random.chance(1, 4)) generate::flatten(view, random);
+  if (random.chance(1, 4)) generate::stretch(view, random);
   for (const double x : {view.ray(0, 0)[0], view.ray(0, 0)[1], view.ray(0, 0)[2]})
     if (!std::isfinite(4 * x)) return std::nullopt;
   return view;

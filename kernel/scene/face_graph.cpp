@@ -133,6 +133,7 @@ void Face_graph::Builder::find_nodes() {
 std::uint64_t Face_graph::Builder::place_on_curve(std::uint32_t point) const {
   std::uint64_t place = 0;
   const double range = scene_->points().range();
+  if (range == 0) return 0;  // all of the scene is below the least double
   for (int axis = 0; axis < 3; ++axis) {
     const auto bits = static_cast<std::uint64_t>((scene_->points().approximate(point, axis) / range + 1) * 0x1p20);
     for (int k = 0; k < 21; ++k) place |= (bits >> k & 1) << (3 * k + axis);

@@ -6,6 +6,14 @@
 
 namespace sightline {
 
+bool Pixel_view::is_moderate() const {
+  const auto has_moderate_length = [](const std::array<double, 3>& axis) {
+    const double square = dot(axis, axis);
+    return square > 0x1p-200 && square < 0x1p200;
+  };
+  return has_moderate_length(look) && has_moderate_length(right) && has_moderate_length(up);
+}
+
 std::array<double, 3> Pixel_view::ray(std::uint32_t x, std::uint32_t y) const {
   const double across = 2 * (x + 0.5) / width - 1, upwards = 1 - 2 * (y + 0.5) / height;
   std::array<double, 3> d{};

@@ -167,11 +167,18 @@ class Point_traits {
   }
   Approximate_plane approximate(Plane plane) const {
     const Cutter h = prepare(plane);
-    const auto nearest = [](const typename K::FT& x) {
-      if constexpr (std::is_floating_point_v<typename K::FT>) return static_cast<double>(x);
-      else return nearest_double(number::to(x));
-    };
-    return {nearest(h.a()), nearest(h.b()), nearest(h.c()), nearest(h.d()), false};
+    if constexpr (std::is_floating_point_v<typename K::FT>) {
+      const auto rounded = [](typename K::FT x) { return static_cast<double>(x); };
+      return {rounded(h.a()), rounded(h.b()), rounded(h.c()), rounded(h.d()), false};
+    } else {
+      // Times a power of two, so that the normal is about 1 long and neither is lost beside the other.
+      const std::array<Rational, 4> exact{number::to(h.a()), number::to(h.b()), number::to(h.c()), number::to(h.d())};
+      long exponent = std::numeric_limits<long>::min();
+      for (std::size_t k = 0; k < 3; ++k)
+        if (sgn(exact[k]) != 0) exponent = std::max(exponent, binary_exponent(exact[k]));
+      const auto rounded = [&](std::size_t k) { return nearest_double(times_power(exact[k], -exponent)); };
+      return {rounded(0), rounded(1), rounded(2), rounded(3), false};
+    }
   }
 
   /// Errors: std::domain_error where an inexact construction overflowed.

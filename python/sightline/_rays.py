@@ -1,6 +1,7 @@
 """Rays, and what they meet."""
 
 from fractions import Fraction
+from numbers import Integral
 from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
@@ -59,8 +60,15 @@ def _doubles(numbers: NDArray[Any]) -> Optional[Doubles]:
         rounded = np.array([float(x) for x in numbers.flat], dtype=np.float64).reshape(numbers.shape)
     except (TypeError, ValueError, OverflowError):
         return None
-    are_same = all(not isinstance(x, (str, bool)) and float(x) == x for x in numbers.flat)
-    return rounded if are_same else None
+
+    def is_same(x: Any) -> bool:
+        if isinstance(x, (str, bool)):
+            return False
+        if isinstance(x, Integral):  # numpy's own are compared in doubles with a double
+            return int(float(x)) == int(x)
+        return bool(float(x) == x)
+
+    return rounded if all(is_same(x) for x in numbers.flat) else None
 
 
 def _rounded(numbers: NDArray[Any]) -> Doubles:

@@ -105,6 +105,18 @@ def test_rays_of_all_kinds():
         down[2]
 
 
+def test_whole_numbers_that_no_double_holds_are_not_rounded():
+    n = 2**53
+    scene = sightline.Scene([[n, -10, 0], [n, 10, 0], [0, 0, 0]], [[0, 1, 2]])
+    for at, expected in ((n, 0), (n + 1, -1)):
+        origins = [[at, 0, 5]]
+        for given in (origins, np.array(origins, dtype=np.int64), np.array(origins, dtype=np.uint64),
+                      np.array([[np.int64(at), 0, 5]], dtype=object)):
+            rays = scene.trace(given, [[0, 0, -1]])
+            assert rays.faces.tolist() == [expected]
+            assert len(rays[0]) == expected + 1
+
+
 def test_solids():
     box = sightline.generate("convex_sphere", size=100).scene
     low, high = (np.array(corner) for corner in box.info()["box"])

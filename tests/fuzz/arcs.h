@@ -75,7 +75,7 @@ inline void try_components(Random& random) {
   generate::Faces drawn = random.chance(1, 2) ? groups(random) : about_the_eye(random);
   generate::add_any(drawn, random.below(8), random);
   const bool scaled = random.chance(1, 2);  // all of them; planes of a kernel's numbers are then beyond doubles
-  static constexpr std::array powers{-700, -520, -510, -300, 300, 400, 510, 520};
+  static constexpr std::array powers{-700, -520, -510, -447, -400, -300, 300, 400, 510, 520};
   const Rational scale = generate::power_of_two(scaled ? powers[random.below(powers.size())] : 0);
   for (generate::Points& face : drawn)
     for (Exact_point& p : face)

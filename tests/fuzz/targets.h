@@ -39,6 +39,7 @@
 #include "side.h"
 #include "single_parts.h"
 #include "subject_laws.h"
+#include "sure_doubles.h"
 #include "text_numbers.h"
 #include "volumes.h"
 #include "weak_claims.h"
@@ -98,6 +99,7 @@ inline const std::vector<Target>& targets() {
                                        {"refusals", refusals, {}},
                                        {"single_parts", single_parts, {}},
                                        {"weak_parts", weak_parts, {}},
+                                       {"sure_doubles", sure_doubles, {}},
                                        {"one_edge", one_edge, {}},
                                        {"cell_proofs", cell_proofs, {}},
                                        {"light_work", light_work, {}},

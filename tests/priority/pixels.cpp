@@ -243,6 +243,31 @@ TEST(Pixel_sets, of_a_leaning_image_whose_axes_are_not_at_right_angles_are_the_p
   EXPECT_EQ(listed(pixel_sets(scene.relation, {at(0, 0, 4), {0, 0, -1}, {1, 0, 0}, {2, 1, 0}, 8, 8})), expected);
 }
 
+TEST(Pixel_sets, are_those_of_exact_rays_where_axes_are_nearly_in_a_plane_and_their_squares_are_too_small) {
+  Met met;
+  for (std::uint64_t k = 0; k < 60; ++k) {
+    // Two short axes, a long one hardly beside their plane, and a face that the rays of the middle row go through.
+    Random random(k);
+    const auto number = [&] { return static_cast<double>(random.between(-(1 << 30), 1 << 30)) * 0x1p-30; };
+    const Triple a{number(), number(), number()}, b{number(), number(), number()}, w{number(), number(), number()};
+    const double of_a = number(), of_b = number(), of_w = std::ldexp(number(), -52);
+    Pixel_view view{at(0, 0, 0), {}, {}, {}, 9, 9};
+    Points corners(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      view.look[i] = std::ldexp(a[i], -282);
+      view.right[i] = std::ldexp(b[i], -282);
+      view.up[i] = std::ldexp(of_a * a[i] + of_b * b[i] + of_w * w[i], 282);
+    }
+    for (Exact_point& p : corners) {
+      const double x = number(), y = std::ldexp(number(), -50);
+      for (std::size_t i = 0; i < 3; ++i) p[i] = exact(a[i] + x * b[i] + y * w[i]);
+    }
+    const Related scene(soup_of({corners, {corners[2], corners[1], corners[0]}}));
+    ASSERT_TRUE(same_sets(pixel_sets(scene.relation, view), brute_sets(scene.flats, view, met))) << k;
+  }
+  EXPECT_GT(met.pierced, 100u);
+}
+
 TEST(Pixel_sets, do_not_depend_on_the_length_of_the_axes) {
   std::size_t members = 0;
   for (std::uint64_t k = 0; k < 120; ++k) {

@@ -3,9 +3,11 @@
 #include "program.h"
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace program {
 
@@ -149,6 +151,17 @@ TEST_F(Boolean, says_what_it_sets_aside_cuts_and_finds_inside_out) {
   EXPECT_NE(r.out.find("face 0 of " + bent), std::string::npos) << r;
   EXPECT_NE(r.out.find("inside out             1: " + flipped), std::string::npos) << r;
   EXPECT_EQ(run({"boolean", "union", a, flipped, "--inside", "nonzero"}).out.find("inside out"), std::string::npos);
+  // So small that what a double holds of its volume is rounding alone.
+  const std::array<long, 3> low{1750806, 1604697, 1507457}, high{2291552, 2145443, 2048202};
+  std::ostringstream corners;
+  corners.precision(17);
+  for (std::size_t n = 0; n < 8; ++n)
+    for (std::size_t k = 0; k < 3; ++k)
+      corners << std::ldexp(static_cast<double>((n >> k & 1) == 0 ? low[k] : high[k]), -378) << (k == 2 ? '\n' : ' ');
+  const std::string tiny = file("tiny.off", "OFF\n8 6 0\n" + corners.str() +
+                                                "4 1 3 2 0\n4 6 7 5 4\n4 4 5 1 0\n4 3 7 6 2\n4 2 6 4 0\n4 5 7 3 1\n");
+  const Outcome of_tiny = run({"boolean", "union", a, tiny});
+  EXPECT_NE(of_tiny.out.find("inside out             1: " + tiny), std::string::npos) << of_tiny;
   const Json scene = run({"boolean", "union", a, flipped, bent, "--json", "-"}).json()["scene"];
   EXPECT_EQ(scene["set_aside"][0]["operand"], 1);
   EXPECT_EQ(scene["non_planar"], Json::parse("[[2, 0]]"));

@@ -342,6 +342,29 @@ TEST(Trace, scenes_smaller_than_the_least_double_are_met_exactly) {
   }
 }
 
+TEST(Trace, small_scenes_are_met_from_where_doubles_end_in_their_unit) {
+  // A triangle across the ray, with a corner that makes the grid wider than a double.
+  Polygon_soup soup;
+  const double wide = 0x1p-539, high = 0x1p-546;
+  const Point_id a = soup.add_point(-wide, wide, -high), b = soup.add_point(wide, -wide, -high),
+                 c = soup.add_point(high, 0x1p-596, high);
+  soup.add_face({a, b, c});
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  for (int power = 475; power < 500; ++power) {
+    const double far = std::ldexp(1.8, power);
+    const Double_ray ray{{far, far, far}, {-1, -1, -1}};
+    Ray_counters counters;
+    EXPECT_EQ(tracer.first(ray.exact(), open, counters), harness::hits_by_definition(soup, scene, ray.exact(), open))
+        << power;
+    EXPECT_EQ(tracer.first(ray.exact(), open, counters).size(), 1u) << power;
+    EXPECT_EQ(tracer.nearest(ray, open, counters).face, 0u) << power;
+  }
+  const Exact_ray away{{exact(0x1p480), exact(0x1p480), exact(0x1p480)}, {1, 1, 1}};
+  Ray_counters counters;
+  EXPECT_TRUE(tracer.first(away, open, counters).empty());
+}
+
 TEST(Trace, scenes_about_points_that_no_double_holds_are_met_exactly) {
   // A square, and a triangle beside it that makes the scene large; the ray passes a quarter of the least double beside
   // the square. The middle of the scene is none of its doubles.

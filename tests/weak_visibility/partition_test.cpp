@@ -207,6 +207,25 @@ TEST(Partition_by_hand, a_small_table_leaves_no_umbra_and_a_touching_one_hides_w
   expect_share(lying[0], 1);  // what lies in the face's plane hides nothing of what is in front of it
 }
 
+TEST(Partition_by_hand, a_table_so_small_beside_the_scene_that_its_width_is_no_double_throws_the_same_shadow) {
+  const auto scaled = [](Points face, int power) {
+    Rational scale = 1;
+    if (power < 0) mpq_div_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(-power));
+    else mpq_mul_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(power));
+    for (Exact_point& p : face)
+      for (Rational& x : p) x *= scale;
+    return face;
+  };
+  Faces faces;
+  for (const Points& face : {parallelogram(at(-4, -4, 0), at(8, 0, 0), at(0, 8, 0)),
+                             parallelogram({ratio(-1, 2), ratio(-1, 2), 1}, at(1, 0, 0), at(0, 1, 0))})
+    faces.push_back(scaled(face, -560));
+  faces.push_back(scaled(parallelogram(at(1, 1, -1), at(1, 0, 0), at(0, 1, 0)), 560));
+  const auto shares = partition_of(soup_of(faces), scaled(lamp(), -560), 0).shares();
+  expect_share(shares[2], ratio(49, 9) / 64);
+  expect_share(shares[0], 1 - ratio(9, 64));
+}
+
 /// Level in z = 2, halfway to the lamp, from x = low to x = high, and far beyond the floor along y.
 Points plate(const Rational& low, const Rational& high) {
   return parallelogram({low, -20, 2}, {high - low, 0, 0}, {0, 40, 0});

@@ -392,7 +392,7 @@ void Event_search::confirm(const Event_chart& chart, const Event_move& move) {
     ++counters_->confirmed;
     return;
   }
-  answer_.status = Weak_status::undecided;  // pieces that near_shaft left out
+  answer_.status = Weak_status::undecided;  // never, by P-73
   ++counters_->refuted;
 }
 

@@ -174,6 +174,7 @@ Plane_chart::Bounds Plane_chart::bounds(const std::array<Near<6>, 3>& lines) con
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Bounds all{-infinity, infinity, -infinity, infinity};
   Bounds found{infinity, -infinity, infinity, -infinity};
+  if (!(near_wide_[0] > 0x1p-900 && near_wide_[1] > 0x1p-900)) return all;  // they may have underflowed
   int sign = 0;
   for (const Near<6>& line : lines) {
     const std::array<double, 4>& h = near_plane_.at;
@@ -183,18 +184,17 @@ Plane_chart::Bounds Plane_chart::bounds(const std::array<Near<6>, 3>& lines) con
     const double error = homogeneous_detail::error_of_products(3, near_plane_, line), w = std::fabs(p[3]) - error;
     if (!(w > 0) || (p[3] > 0 ? 1 : -1) * sign < 0) return all;
     sign = p[3] > 0 ? 1 : -1;
-    const auto range = [&](std::size_t axis, std::size_t a, double& low, double& high) {
+    const auto is_told = [&](std::size_t axis, std::size_t a, double& low, double& high) {
       const double q = p[axis] / p[3], x = (q - near_low_[a]) / near_wide_[a];
       const double slack = 1.001 * (error * (1 + std::fabs(q)) / w) / near_wide_[a] +
                            0x1p-48 * (std::fabs(q) + std::fabs(near_low_[a])) / near_wide_[a] + 0x1p-40;
       low = std::min(low, x - slack);
       high = std::max(high, x + slack);
+      return x - slack <= x + slack;  // neither is NaN
     };
-    range(i_, 0, found.x0, found.x1);
-    range(j_, 1, found.y0, found.y1);
+    if (!is_told(i_, 0, found.x0, found.x1) || !is_told(j_, 1, found.y0, found.y1)) return all;
   }
-  const bool told = found.x0 <= found.x1 && found.y0 <= found.y1;  // no number is NaN
-  return told ? found : all;
+  return found;
 }
 
 }  // namespace sightline

@@ -40,8 +40,16 @@ bool all_finite(std::span<const double> numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
-}  // namespace
+constexpr int of_heights = -12;  // heights are times this power of two, so that those of normals to 256 do not overflow
 
+/// How far a point is along a normal, times 2^of_heights.
+double height_of(const Near_point& p, const Triple& normal) {
+  double height = 0;
+  for (std::size_t k = 0; k < 3; ++k) height += normal[k] * std::ldexp(p.near[k], of_heights);
+  return height;
+}
+
+/// A normal of few bits that points from an edge into its convex polygon, about within its plane.
 Triple inward_of(const Near_polygon& polygon, std::size_t e) {
   const Triple &a = polygon[e].near, &b = polygon[(e + 1) % polygon.size()].near;
   const Triple along{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
@@ -64,14 +72,19 @@ Triple inward_of(const Near_polygon& polygon, std::size_t e) {
   return inward;
 }
 
+/// The plane on which a normal of few bits takes a height, rounded down to a few thousandths of an extent, so that it
+/// and what it cuts keep few bits.
 Near_plane plane_at(const Near_frame& frame, const Triple& normal, double height, double extent) {
   const int step = std::ilogb(extent) - 10;
-  const Rational offset = exact(std::ldexp(std::floor(std::ldexp(height, -step)), step)) * frame.unit();
+  const double rounded = std::ldexp(std::floor(std::ldexp(height, -step)), step);
+  const Rational offset = times_power(exact(rounded), -of_heights) * frame.unit();
   std::array<Integer, 4> h;
   for (std::size_t k = 0; k < 3; ++k) h[k] = Integer(normal[k]) * offset.get_den();
   h[3] = -offset.get_num();
   return near_plane(frame, h);
 }
+
+}  // namespace
 
 std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& game, const Near_frame& frame,
                              Weak_counters& counters) {
@@ -84,11 +97,10 @@ std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& game, c
     for (std::size_t e = 0; e < polygon.size(); ++e) {
       const Triple inward = inward_of(polygon, e);
       std::vector<double> heights;
-      for (const Near_point& p : polygon)
-        heights.push_back(inward[0] * p.near[0] + inward[1] * p.near[1] + inward[2] * p.near[2]);
+      for (const Near_point& p : polygon) heights.push_back(height_of(p, inward));
       const double low = *std::min_element(heights.begin(), heights.end()),
                    high = *std::max_element(heights.begin(), heights.end());
-      if (!(high - low > 1e-12) || !all_finite(heights)) continue;
+      if (!(high - low > std::ldexp(1e-12, of_heights)) || !all_finite(heights)) continue;
       double empty = 0;  // the share of the height that is known to hold no line
       for (const double share : {0.5, 0.25, 0.75, 0.125, 0.875}) {
         if (share < empty || (empty == 0 && share > 0.5) || (empty == 0.5 && share < 0.5) ||
@@ -132,11 +144,7 @@ std::optional<Cell_cut> bisector(const Line_domain& domain, const Near_frame& fr
   const double scale = size(normal);
   if (!(scale > 0) || !all_finite(a.near) || !all_finite(b.near) || !std::isfinite(scale)) return {};
   for (double& x : normal) x = std::round(x / scale * 16);
-  double low = 0, high = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    low += normal[k] * a.near[k];
-    high += normal[k] * b.near[k];
-  }
+  const double low = height_of(a, normal), high = height_of(b, normal);
   if (!(high - low > 0x1p-900)) return {};
   const Near_plane plane = plane_at(frame, normal, (low + high) / 2, high - low);
   if (!is_across(plane, source ? domain.source : domain.target)) return {};

@@ -23,13 +23,6 @@ struct Cell_cut {
 /// crosses it, so that lines near the plane never resolve while their ends are on both sides of it. Exact: yes.
 std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occluders& occluders);
 
-/// A normal of few bits that points from an edge into its convex polygon, about within its plane.
-Triple inward_of(const Near_polygon& polygon, std::size_t e);
-
-/// The plane on which a normal of few bits takes a height, rounded down to a few thousandths of an extent, so that it
-/// and what it cuts keep few bits.
-Near_plane plane_at(const Near_frame& frame, const Triple& normal, double height, double extent);
-
 /// Planes parallel to edges, each with none of the cell's lines behind it, by doubles; none where together they leave
 /// four fifths of the polygons. Pre: `game` is the cell's relaxation, solved.
 std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& game, const Near_frame& frame,

@@ -1,0 +1,225 @@
+#pragma once
+// What doubles say for certain though nothing exact is asked after them: which pieces are near a shaft, where lines
+// may meet a chart's plane, what a ray from far away passes by, and where polygons of any size are halved.
+
+#include "support.h"
+
+#include <sightline/algorithms/rays/tracer.h>
+#include <sightline/algorithms/weak_visibility/events/homogeneous.h>
+#include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/partition/plane_chart.h>
+#include <sightline/algorithms/weak_visibility/search/cell_cuts.h>
+#include <sightline/algorithms/weak_visibility/search/line_cell.h>
+#include <sightline/harness/generate/families.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/trace.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace fuzz {
+
+// ---- Near a shaft
+
+inline bool spans_a_plane(const generate::Points& face) {
+  return cross(minus(face[1], face[0]), minus(face[2], face[0])) != Exact_point{0, 0, 0};
+}
+
+/// A corner for `face` that is farther behind the plane of three points than a shaft's planes may be from it, or hardly
+/// less: 10^-9 of what is 1 in the frame of the scene.
+inline Exact_point hardly_beside(const generate::Points& face, const Exact_point& apex, const Rational& unit,
+                                 generate::Random& random) {
+  const Exact_point n = cross(minus(face[1], face[0]), minus(apex, face[0]));
+  const double length = std::sqrt(nearest_double(dot(n, n)));
+  const Rational share = generate::integer(random, -8, 8) / 4, more = generate::integer(random, -8, 8) / 4,
+                 off = unit * exact(1e-9 / length * (1 - static_cast<double>(random.below(64)) * 0x1p-48));
+  const int side = random.chance(1, 2) ? 1 : -1;
+  Exact_point p;
+  for (std::size_t k = 0; k < 3; ++k)
+    p[k] = exact(nearest_double(
+        Rational(face[0][k] + share * (face[1][k] - face[0][k]) + more * (apex[k] - face[0][k]) + side * off * n[k])));
+  return p;
+}
+
+/// A small face that touches the hull of two polygons, at a corner of either or in between, is near their shaft.
+inline void try_near_shaft(generate::Random& random) {
+  const auto point = [&] { return generate::lattice(random, 4); };
+  generate::Points from{point(), point(), point()}, to{point(), point(), point()};
+  if (!spans_a_plane(from) || !spans_a_plane(to)) return;
+  const auto soup_of_all = [&](std::span<const generate::Points> probes) {
+    generate::Faces faces{from, to};
+    faces.insert(faces.end(), probes.begin(), probes.end());
+    return generate::soup_of(faces);
+  };
+  // 1. A corner that a plane through an edge and a corner hardly passes.
+  if (random.chance(3, 4)) {
+    const generate::Points widest{{-4, -4, -4}, {4, 4, 4}, {4, -4, 4}};
+    const Scene scene(soup_of_all({{widest}}));
+    const Occluders occluders(scene);
+    double most = 0;  // what 4 is in its frame
+    for (const Triple& p : occluders.corners(2))
+      for (const double x : p) most = std::max(most, std::fabs(x));
+    const Exact_point apex = to[0];
+    if (cross(minus(from[1], from[0]), minus(apex, from[0])) == Exact_point{0, 0, 0}) return;
+    (random.chance(1, 2) ? from : to)[2] = hardly_beside(from, apex, Rational(4 / exact(most)), random);
+    if (!spans_a_plane(from) || !spans_a_plane(to)) return;
+  }
+  // 2. Faces that touch the hull at a point.
+  std::vector<generate::Points> probes{{{-4, -4, -4}, {4, 4, 4}, {4, -4, 4}}};
+  for (const generate::Points* polygon : {&from, &to})
+    for (const Exact_point& corner : *polygon) probes.push_back({corner, corner, corner});
+  const Rational share = generate::integer(random, 0, 8) / 8;
+  Exact_point middle = from[random.below(3)];
+  for (std::size_t k = 0; k < 3; ++k) middle[k] += share * (to[0][k] - middle[k]);
+  probes.push_back({middle, middle, middle});
+  const Rational size = generate::power_of_two(-static_cast<int>(random.between(0, 90)));
+  for (std::size_t k = 1; k < probes.size(); ++k) do
+      for (std::size_t c = 1; c < 3; ++c)
+        for (std::size_t i = 0; i < 3; ++i) probes[k][c][i] = probes[k][0][i] + size * generate::integer(random, -4, 4);
+    while (!spans_a_plane(probes[k]));
+  const Scene scene(soup_of_all(probes));
+  const Occluders occluders(scene);
+  std::array<std::optional<std::uint32_t>, 2> polygons;
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
+    if (scene.pieces()[piece].face < 2) polygons[scene.pieces()[piece].face] = piece;
+  if (!polygons[0] || !polygons[1]) return;
+  const std::vector<std::uint32_t> near =
+      occluders.near_shaft(occluders.polygon(*polygons[0]), occluders.polygon(*polygons[1]));
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
+    require(scene.pieces()[piece].face == 2 || std::find(near.begin(), near.end(), piece) != near.end(),
+            "what touches the hull of two polygons is near their shaft");
+}
+
+// ---- Bounds in a chart
+
+/// Lines through points of a face are met where a chart's bounds say, whatever sizes face and lines have.
+inline void try_chart_bounds(generate::Random& random) {
+  static constexpr std::array<std::int64_t, 7> powers{0, 30, 300, 440, 500, 550, 660};
+  const auto power = [&] {
+    const std::int64_t about = powers[random.below(powers.size())] + random.between(-4, 4);
+    return generate::power_of_two(static_cast<int>(random.chance(1, 2) ? about : -about));
+  };
+  const Rational small = power(), large = power();
+  const auto point = [&](const Rational& scale) {
+    Exact_point p = generate::lattice(random, 9);
+    for (Rational& x : p) x *= scale;
+    return p;
+  };
+  const generate::Points face{point(small), point(small), point(small)},
+      other{point(large), point(large), point(large)};
+  if (!spans_a_plane(face) || !spans_a_plane(other)) return;
+  const Exact_point normal = cross(minus(face[1], face[0]), minus(face[2], face[0]));
+  const Scene scene(generate::soup_of({face, other}));
+  const Occluders occluders(scene);
+  const auto piece = static_cast<std::uint32_t>(scene.pieces()[0].face == 0 ? 0 : 1);
+  const Near_frame& frame = occluders.frame();
+  const Plane_chart chart(frame, occluders.polygon(piece), occluders.plane(piece));
+  const auto located = [&](const Exact_point& p) {
+    const auto at = scene.locate(p);
+    return near_point(frame, {at.x, at.y, at.z, at.w});
+  };
+  std::array<Near<6>, 3> lines;
+  std::array<Near_point, 3> met;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Rational a = generate::integer(random, 0, 8) / 8, b = generate::integer(random, 0, 8) / 8 * (1 - a);
+    Exact_point in_face, from = point(random.chance(1, 4) ? small : large);
+    for (std::size_t k = 0; k < 3; ++k)
+      in_face[k] = face[0][k] + a * (face[1][k] - face[0][k]) + b * (face[2][k] - face[0][k]);
+    if (dot(normal, minus(from, face[0])) == 0) return;
+    met[n] = located(in_face);
+    lines[n] = join(near(located(from)), near(met[n]));
+  }
+  const Plane_chart::Bounds bounds = chart.bounds(lines);
+  for (const Near_point& p : met) {
+    const std::array<Rational, 2> at = chart.at(p.exact);
+    const auto is_within = [](const Rational& x, double low, double high) {
+      return !(std::isfinite(low) ? x < exact(low) : low > 0) && !(std::isfinite(high) ? x > exact(high) : high < 0);
+    };
+    require(is_within(at[0], bounds.x0, bounds.x1) && is_within(at[1], bounds.y0, bounds.y1),
+            "lines meet a chart's plane within the bounds that it gives");
+  }
+}
+
+// ---- Rays from far away
+
+/// A ray at the end of what doubles hold, in the unit of its scene, meets what it meets.
+inline void try_rays_where_doubles_end(generate::Random& random) {
+  Polygon_soup soup;
+  const int about = static_cast<int>(random.between(-560, 0));
+  const double wide = std::ldexp(1.0, about), high = std::ldexp(1.0, about - static_cast<int>(random.between(1, 9)));
+  const Point_id a = soup.add_point(-wide, wide, -high), b = soup.add_point(wide, -wide, -high),
+                 c = soup.add_point(high, std::ldexp(1.0, about - static_cast<int>(random.between(40, 70))), high);
+  soup.add_face({a, b, c});
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  const Rational far = (1 + generate::integer(random, 0, 15) / 16) *
+                       generate::power_of_two(static_cast<int>(random.between(1016, 1025)));
+  const long way = random.chance(1, 8) ? 1 : -1;
+  Exact_ray ray;
+  for (std::size_t k = 0; k < 3; ++k) {
+    ray.origin[k] = far * exact(wide);
+    ray.direction[k] = way;
+  }
+  Ray_counters counters;
+  require(tracer.all(ray, Ray_start::open, counters) == harness::hits_by_definition(soup, scene, ray, Ray_start::open),
+          "a ray from far away meets what it meets by definition");
+}
+
+// ---- Cuts of what is large
+
+/// A bisector goes across the longer one of two polygons, however large they are; beyond doubles there may be none.
+inline void try_bisector(generate::Random& random) {
+  const Scene scene(generate::soup_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}));
+  const Occluders occluders(scene);
+  const auto polygon = [&]() -> std::optional<Near_polygon> {
+    const int power = static_cast<int>(random.between(random.chance(1, 2) ? 1000 : -1000, 1025));
+    generate::Points corners{generate::lattice(random, 7), generate::lattice(random, 7), generate::lattice(random, 7)};
+    if (!spans_a_plane(corners)) return std::nullopt;
+    Near_polygon near;
+    for (Exact_point& p : corners) {
+      for (Rational& x : p) x *= generate::power_of_two(power);
+      const auto at = scene.locate(p);
+      near.push_back(near_point(occluders.frame(), {at.x, at.y, at.z, at.w}));
+    }
+    return near;
+  };
+  const std::optional<Near_polygon> source = polygon(), target = polygon();
+  if (!source || !target) return;
+  const Line_domain domain(std::make_shared<const Near_polygon>(*source),
+                           std::make_shared<const Near_polygon>(*target));
+  const std::optional<Cell_cut> cut = bisector(domain, occluders.frame());
+  require(!cut || is_across(cut->plane, cut->source ? *source : *target), "a bisector is across what it cuts");
+  const auto is_ordinary = [](const Near_polygon& of) {
+    double most = 0;
+    for (const Near_point& p : of)
+      for (const double x : p.near) most = std::max(most, std::fabs(x));
+    return most > 0x1p-400 && most < 0x1p1022;
+  };
+  require(cut || !is_ordinary(*source) || !is_ordinary(*target), "what doubles hold has a bisector");
+}
+
+inline void sure_doubles(std::string_view bytes) {
+  Bytes from(bytes);
+  const std::size_t kind = from.below(6);
+  generate::Random random(from.word());
+  if (kind == 0) try_rays_where_doubles_end(random);
+  else if (kind == 1) try_bisector(random);
+  else if (kind < 4) try_near_shaft(random);
+  else try_chart_bounds(random);
+}
+
+}  // namespace fuzz
