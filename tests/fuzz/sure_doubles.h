@@ -1,9 +1,12 @@
 #pragma once
 // What doubles say for certain though nothing exact is asked after them: which pieces are near a shaft, where lines
-// may meet a chart's plane, what a ray from far away passes by, and where polygons of any size are halved.
+// may meet a chart's plane, what a ray from far away passes by, where polygons of any size are halved, and
+// the pixels of an image whose directions are nearly in a plane.
 
 #include "support.h"
 
+#include <sightline/algorithms/priority/pixels.h>
+#include <sightline/algorithms/priority/relation.h>
 #include <sightline/algorithms/rays/tracer.h>
 #include <sightline/algorithms/weak_visibility/events/homogeneous.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
@@ -17,6 +20,7 @@
 #include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -212,11 +216,49 @@ inline void try_bisector(generate::Random& random) {
   require(cut || !is_ordinary(*source) || !is_ordinary(*target), "what doubles hold has a bisector");
 }
 
+// ---- Flat views
+
+/// Two directions of an image hardly beside the third, of lengths that may multiply to zero: a face about a row of
+/// pixels is pierced by the rays that go through its inside.
+inline void try_flat_views(generate::Random& random) {
+  using Vector = std::array<double, 3>;
+  const auto number = [&] { return static_cast<double>(random.between(-(1 << 30), 1 << 30)) * 0x1p-30; };
+  const auto power = [&] { return static_cast<int>(random.chance(1, 4) ? 0 : random.between(260, 300)); };
+  const Vector a{number(), number(), number()}, b{number(), number(), number()}, w{number(), number(), number()};
+  const double of_a = number(), of_b = number(), of_w = std::ldexp(number(), -static_cast<int>(random.between(45, 53)));
+  const int short_ones = -power(), long_one = power();
+  Pixel_view view{{0, 0, 0}, {}, {}, {}, 9, 5};
+  for (std::size_t i = 0; i < 3; ++i) {
+    view.look[i] = std::ldexp(a[i], short_ones);
+    view.right[i] = std::ldexp(b[i], short_ones);
+    view.up[i] = std::ldexp(of_a * a[i] + of_b * b[i] + of_w * w[i], long_one);
+  }
+  generate::Points face(3);
+  for (Exact_point& p : face) {
+    const double x = number(), y = std::ldexp(number(), -50);
+    for (std::size_t i = 0; i < 3; ++i) p[i] = exact(a[i] + x * b[i] + y * w[i]);
+  }
+  if (dot(cross(face[0], face[1]), face[2]) > 0) std::swap(face[1], face[2]);
+  const Scene scene(generate::soup_of({face}));
+  const Exact_traits traits(scene);
+  const Priority_relation<Exact_traits> relation(traits);
+  if (relation.size() != 1) return;
+  const Pixel_sets sets = pixel_sets(relation, view);
+  for (std::uint32_t y = 0; y < view.height; ++y)
+    for (std::uint32_t x = 0; x < view.width; ++x) {
+      const Exact_point ray = exact(view.ray(x, y));
+      bool is_inside = true;
+      for (std::size_t k = 0; k < 3; ++k) is_inside = is_inside && dot(cross(face[(k + 1) % 3], face[k]), ray) > 0;
+      require(sets[y * view.width + x].empty() != is_inside, "a pixel has the faces that its ray goes through");
+    }
+}
+
 inline void sure_doubles(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(6);
+  const std::size_t kind = from.below(7);
   generate::Random random(from.word());
-  if (kind == 0) try_rays_where_doubles_end(random);
+  if (kind == 6) try_flat_views(random);
+  else if (kind == 0) try_rays_where_doubles_end(random);
   else if (kind == 1) try_bisector(random);
   else if (kind < 4) try_near_shaft(random);
   else try_chart_bounds(random);
