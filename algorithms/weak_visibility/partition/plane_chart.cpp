@@ -174,7 +174,6 @@ Plane_chart::Bounds Plane_chart::bounds(const std::array<Near<6>, 3>& lines) con
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Bounds all{-infinity, infinity, -infinity, infinity};
   Bounds found{infinity, -infinity, infinity, -infinity};
-  if (!(near_wide_[0] > 0x1p-900 && near_wide_[1] > 0x1p-900)) return all;  // they may have underflowed
   int sign = 0;
   for (const Near<6>& line : lines) {
     const std::array<double, 4>& h = near_plane_.at;
@@ -190,7 +189,7 @@ Plane_chart::Bounds Plane_chart::bounds(const std::array<Near<6>, 3>& lines) con
                            0x1p-48 * (std::fabs(q) + std::fabs(near_low_[a])) / near_wide_[a] + 0x1p-40;
       low = std::min(low, x - slack);
       high = std::max(high, x + slack);
-      return x - slack <= x + slack;  // neither is NaN
+      return x - slack <= x + slack;  // neither is NaN, as of a width that underflows
     };
     if (!is_told(i_, 0, found.x0, found.x1) || !is_told(j_, 1, found.y0, found.y1)) return all;
   }

@@ -49,7 +49,7 @@ class Plane_chart {
   /// The line through two points of the plane.
   Plane_curve line(const Homogeneous& p, const Homogeneous& q) const;
 
-  /// A rectangle that holds a part of a curve; rounded outwards.
+  /// A rectangle that holds what of a curve's part is within the face's own, from 0 to 1 both ways; rounded outwards.
   struct Bounds {
     double x0, x1, y0, y1;
   };
