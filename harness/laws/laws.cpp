@@ -69,15 +69,23 @@ std::optional<Image> permuted(const Posed_scene& scene, Random& random) {
   return image;
 }
 
+/// 2^-1200 to 2^1200 for one small scene in four, as numbers of so many bits take long; else nearer to 1.
+static std::int64_t most_power(const Posed_scene& scene, Random& random, std::int64_t else_most) {
+  constexpr std::size_t few_faces = 40;
+  return scene.soup.face_count() <= few_faces && random.chance(1, 4) ? 1200 : else_most;
+}
+
 std::optional<Image> translated(const Posed_scene& scene, Random& random) {
-  const std::int64_t reach = random.chance(1, 2) ? 10 : 100000000;
-  const Exact_point offset = generate::lattice(random, reach);
+  const std::int64_t reach = random.chance(1, 2) ? 10 : 100000000, most = most_power(scene, random, 0);
+  const Rational unit = generate::power_of_two(static_cast<int>(random.between(0, most)));
+  Exact_point offset = generate::lattice(random, reach);
+  for (Rational& x : offset) x *= unit;
   return moved_by(scene, [&](const Exact_point& p) { return generate::along(p, 1, offset); });
 }
 
 std::optional<Image> scaled(const Posed_scene& scene, Random& random) {
-  const std::int64_t power = random.between(-60, 60);
-  const Rational factor = generate::power_of_two(static_cast<int>(power));
+  const std::int64_t most = most_power(scene, random, 60);
+  const Rational factor = generate::power_of_two(static_cast<int>(random.between(-most, most)));
   return moved_by(scene, [&](const Exact_point& p) { return generate::along({0, 0, 0}, factor, p); });
 }
 
@@ -94,10 +102,7 @@ std::optional<Image> rotated(const Posed_scene& scene, Random& random) {
 }
 
 std::optional<Image> stretched(const Posed_scene& scene, Random& random) {
-  constexpr std::size_t few_faces = 40;
-  const std::int64_t most = scene.soup.face_count() <= few_faces && random.chance(1, 4) ? 1200
-                            : random.chance(1, 3)                                       ? 60
-                                                                                        : 6;
+  const std::int64_t most = most_power(scene, random, random.chance(1, 3) ? 60 : 6);
   Exact_point factors;
   for (Rational& factor : factors) factor = generate::power_of_two(static_cast<int>(random.between(-most, most)));
   const std::size_t from = random.below(3), to = (from + 1 + random.below(2)) % 3;
@@ -186,9 +191,13 @@ std::optional<Image> with_a_bystander(const Posed_scene& scene, Random& random) 
   for (Point_id p = 0; p < scene.soup.point_count(); ++p) most = std::max(most, scene.soup.point(p)[axis]);
   Image image{scene, same_faces(scene.soup)};
   Points face = any_face(random);
+  const std::int64_t power = most_power(scene, random, 0);
+  const Rational size = power_of_two(static_cast<int>(random.between(-power, power)));
   std::vector<Point_id> ids;
   for (Exact_point& p : face) {
-    p[axis] += most + 5;  // its coordinates are at least -4
+    p[axis] += 5;  // its coordinates are at least -4
+    for (Rational& x : p) x *= size;
+    p[axis] += most;
     ids.push_back(image.scene.soup.add_point(p[0], p[1], p[2]));
   }
   image.scene.soup.add_face(ids);
@@ -201,8 +210,9 @@ const std::vector<Law>& laws() {
   static const std::vector<Law> all{
       {"begin", "loops begun elsewhere, with corners repeated and straight ones more", everywhere, begun_elsewhere},
       {"permute", "faces in another order", everywhere, permuted},
-      {"translate", "moved by integers up to 10^8", everywhere, translated},
-      {"scale", "scaled by a power of two from 2^-60 to 2^60", everywhere, scaled},
+      {"translate", "moved by integers up to 10^8, of some small scenes times up to 2^1200", everywhere, translated},
+      {"scale", "scaled by a power of two, 2^-60 to 2^60, or 2^-1200 to 2^1200 of some small scenes", everywhere,
+       scaled},
       {"rotate", "turned by a rational rotation", planar_only, rotated},
       {"stretch", "each axis scaled by a power of two of its own, 2^-1200 to 2^1200, and sheared", planar_only,
        stretched},
@@ -211,7 +221,8 @@ const std::vector<Law>& laws() {
       {"mirror", "mirrored, faces turned back", planar_only, mirrored},
       {"turn", "all faces turned round: fronts are backs", everywhere, turned},
       {"cut", "a convex face cut in two", everywhere, cut},
-      {"bystander", "a face more, out of sight", everywhere, with_a_bystander}};
+      {"bystander", "a face more, out of sight, of some small scenes 2^-1200 to 2^1200 times as large", everywhere,
+       with_a_bystander}};
   return all;
 }
 

@@ -87,7 +87,8 @@ Check shares_check() {
   return {"shares", "shares of light are those of images of the scene, and of the source in two parts",
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_pieces = 8;
-            constexpr int most_bits = 64, most_bits_of_images = 150;
+            constexpr std::size_t few_pieces = 3;
+            constexpr int most_bits = 64, most_bits_of_images = 150, most_bits_of_few = 3000;
             const Scene scene(posed.soup);
             if (scene.pieces().empty() || scene.pieces().size() > most_pieces || scene.bits() > most_bits)
               return Outcome::not_applicable();
@@ -108,7 +109,8 @@ Check shares_check() {
             if (!image || !answer.planar) return Outcome{};
             const Scene moved(image->scene.soup);
             const auto other = only_piece_of(moved, face);
-            if (!other || moved.bits() > most_bits_of_images) return Outcome{};
+            const bool few = moved.pieces().size() <= few_pieces;
+            if (!other || moved.bits() > (few ? most_bits_of_few : most_bits_of_images)) return Outcome{};
             const std::optional<Shares> of_image = shares_of(moved, *other, {image->scene.source});
             if (!of_image) return Outcome{};
             const std::string flaw = difference(*shares, *of_image);

@@ -474,12 +474,13 @@ inline void try_hardly_faces(Random& random) {
   if (kind == 1) std::reverse(second.begin(), second.end());
   if (kind == 2) std::rotate(second.begin(), second.begin() + 1, second.end());
   soup.add_hole(second);
-  const auto is_taken = [&](Face_id face, std::string why) {
+  const auto is_taken = [&](Face_id face, std::string why, const std::set<Face_id>& set_aside = {}) {
     return !is_refused<certificate_check::Rejection>([&] {
-      certificate_check::check_set_aside(soup, {face, std::move(why)}, {});
+      certificate_check::check_set_aside(soup, {face, std::move(why)}, set_aside);
     });
   };
   require(is_taken(1, "duplicate of 0") == (kind != 3), "a face is another one's duplicate iff their loops are");
+  require(!is_taken(1, "duplicate of 0", {0, 1}), "a face is no duplicate of one that is set aside");
   require(is_taken(0, "zero area") == is_flat, "a face without a contour's area has none, whatever its holes");
 
   // Not planar: all in one line but a hole, or simple along no axis, with a hole.

@@ -38,6 +38,7 @@
 #include "separations.h"
 #include "side.h"
 #include "single_parts.h"
+#include "small_promises.h"
 #include "subject_laws.h"
 #include "sure_doubles.h"
 #include "text_numbers.h"
@@ -100,6 +101,7 @@ inline const std::vector<Target>& targets() {
                                        {"single_parts", single_parts, {}},
                                        {"weak_parts", weak_parts, {}},
                                        {"sure_doubles", sure_doubles, {}},
+                                       {"small_promises", small_promises, {}},
                                        {"one_edge", one_edge, {}},
                                        {"cell_proofs", cell_proofs, {}},
                                        {"light_work", light_work, {}},
