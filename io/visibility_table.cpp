@@ -224,7 +224,7 @@ std::uint64_t fingerprint(const Polygon_soup& soup) {
   for (std::size_t i = 0; i < soup.coordinates.size(); ++i) add(to_string(soup.coordinates[i]));
   for (Face_id f = 0; f < soup.face_count(); ++f)
     for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
-      add("loop");
+      add(k == 0 ? "loop" : "hole");
       for (const Point_id p : soup.loop(f, k)) add(std::to_string(p));
     }
   return hash;

@@ -32,6 +32,7 @@
 #include "pictures.h"
 #include "planar_parts.h"
 #include "quadratic_roots.h"
+#include "rare_files.h"
 #include "readers.h"
 #include "refusals.h"
 #include "scene_laws.h"
@@ -102,6 +103,7 @@ inline const std::vector<Target>& targets() {
                                        {"weak_parts", weak_parts, {}},
                                        {"sure_doubles", sure_doubles, {}},
                                        {"small_promises", small_promises, {}},
+                                       {"rare_files", rare_files, {}},
                                        {"one_edge", one_edge, {}},
                                        {"cell_proofs", cell_proofs, {}},
                                        {"light_work", light_work, {}},
