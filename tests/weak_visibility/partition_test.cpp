@@ -207,23 +207,21 @@ TEST(Partition_by_hand, a_small_table_leaves_no_umbra_and_a_touching_one_hides_w
   expect_share(lying[0], 1);  // what lies in the face's plane hides nothing of what is in front of it
 }
 
-TEST(Partition_by_hand, a_table_so_small_beside_the_scene_that_its_width_is_no_double_throws_the_same_shadow) {
-  const auto scaled = [](Points face, int power) {
-    Rational scale = 1;
-    if (power < 0) mpq_div_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(-power));
-    else mpq_mul_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(power));
-    for (Exact_point& p : face)
-      for (Rational& x : p) x *= scale;
-    return face;
+TEST(Partition_by_hand, a_floor_so_small_beside_the_scene_that_its_width_is_no_double_has_its_shadows) {
+  // Of a lamp from x = a on, a plate from x = a / 2 on halfway to it hides all where x >= 0, and not quite all beyond.
+  // Two triangles out of the way make lines that meet the floor's plane far from it.
+  const double low = 0x1.9c07541e29fecp+658, high = 0x1.0eff55b252443p+660, up = 0x1.83239efebeaaap+660,
+               x = 0x1.fc2e6a5d64bf1p+662, y = 0x1.c9d2294750502p+662, z = 0x1.f8c110fc0b67cp+661, small = 0x1p-440;
+  const auto point = [](double px, double py, double pz) { return Exact_point{exact(px), exact(py), exact(pz)}; };
+  const auto level = [&](double x0, double x1, double y0, double y1, double pz) {
+    return Points{point(x0, y0, pz), point(x1, y0, pz), point(x1, y1, pz), point(x0, y1, pz)};
   };
-  Faces faces;
-  for (const Points& face : {parallelogram(at(-4, -4, 0), at(8, 0, 0), at(0, 8, 0)),
-                             parallelogram({ratio(-1, 2), ratio(-1, 2), 1}, at(1, 0, 0), at(0, 1, 0))})
-    faces.push_back(scaled(face, -560));
-  faces.push_back(scaled(parallelogram(at(1, 1, -1), at(1, 0, 0), at(0, 1, 0)), 560));
-  const auto shares = partition_of(soup_of(faces), scaled(lamp(), -560), 0).shares();
-  expect_share(shares[2], ratio(49, 9) / 64);
-  expect_share(shares[0], 1 - ratio(9, 64));
+  Faces faces{level(-small, 2 * small, -small, small, 0), level(low / 2, 2 * high, -up, 2 * up, up / 2)};
+  for (const double far : {z, -z}) faces.push_back({point(x, 0, far), point(x, y, far), point(0.75 * x, y, far)});
+  const auto shares = partition_of(soup_of(faces), reversed(level(low, high, low, high, up)), 0).shares();
+  EXPECT_EQ(shares[0].high, 0);
+  expect_share(shares[1], ratio(1, 3));
+  expect_share(shares[2], ratio(2, 3));
 }
 
 /// Level in z = 2, halfway to the lamp, from x = low to x = high, and far beyond the floor along y.
