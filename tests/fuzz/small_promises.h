@@ -5,6 +5,8 @@
 
 #include "support.h"
 
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/traverse.h>
 #include <sightline/algorithms/cutset/motion.h>
 #include <sightline/algorithms/levels/common_inside.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
@@ -12,6 +14,7 @@
 #include <sightline/algorithms/rays/tracer.h>
 #include <sightline/algorithms/solids/operands.h>
 #include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/algorithms/verify/boxes.h>
 #include <sightline/algorithms/weak_visibility/partition/real_root.h>
 #include <sightline/algorithms/weak_visibility/volume.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
@@ -23,6 +26,8 @@
 #include <sightline/kernel/scene/face_graph.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/sign.h>
+#include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -375,6 +380,108 @@ inline void try_fine_origins(generate::Random& random) {
   }
 }
 
+/// Stars of five corners, mirrored, so that rays from inside meet edges: what is called convex has no corner before any
+/// of its faces.
+inline void try_mirrored_stars(generate::Random& random) {
+  const Rational a = generate::integer(random, 8, 12), b = generate::integer(random, 4, 8),
+                 c = generate::integer(random, 6, 10), d = generate::integer(random, 16, 20) / 2,
+                 e = generate::integer(random, 2, 4);
+  const generate::Points rim{
+      {0, a, 0}, {Rational(-b), Rational(-c), 0}, {d, e, 0}, {Rational(-d), e, 0}, {b, Rational(-c), 0}};
+  const Exact_point top{0, 0, generate::integer(random, 1, 80)}, bottom{0, 0, generate::integer(random, -80, -1)};
+  generate::Faces faces;
+  for (std::size_t k = 0; k < 5; ++k) {
+    faces.push_back({rim[k], rim[(k + 1) % 5], top});
+    faces.push_back({rim[(k + 1) % 5], rim[k], bottom});
+  }
+  for (std::size_t k = faces.size(); k > 1; --k) std::swap(faces[k - 1], faces[random.below(k)]);
+  const Scene scene(generate::soup_of(faces));
+  const Face_graph graph(scene);
+  for (std::uint32_t node = 0; node < graph.size(); ++node)
+    if (graph.is_convex(node))
+      for (const generate::Points& face : faces) {
+        const Exact_plane plane = exact_plane(face);
+        for (const Exact_point& p : {top, bottom, rim[0], rim[1], rim[2], rim[3], rim[4]})
+          require(exact_height(plane, p) <= 0, "a convex body has no corner before any of its faces");
+      }
+}
+
+/// Both orders of a tree have the same polygons, seen from the same sides, wherever the eye is: also in a plane.
+inline void try_both_orders(generate::Random& random) {
+  generate::Faces faces;
+  for (std::uint64_t k = 1 + random.below(4); k > 0; --k) {
+    const generate::Points face{generate::lattice(random, 3), generate::lattice(random, 3),
+                                generate::lattice(random, 3)};
+    if (cross(minus(face[1], face[0]), minus(face[2], face[0])) != Exact_point{0, 0, 0}) faces.push_back(face);
+  }
+  if (faces.empty()) return;
+  const generate::Points& face = faces[random.below(faces.size())];
+  Exact_point eye = generate::lattice(random, 5);
+  if (random.chance(2, 3)) {  // in its plane
+    const Rational u = generate::integer(random, -8, 8) / 4, v = generate::integer(random, -8, 8) / 4;
+    for (std::size_t k = 0; k < 3; ++k)
+      eye[k] = face[0][k] + u * (face[1][k] - face[0][k]) + v * (face[2][k] - face[0][k]);
+  }
+  const Scene scene(generate::soup_of(faces));
+  const Exact_traits traits(scene);
+  Bsp_options options;
+  options.threads = 1;
+  const auto tree = build_bsp(traits, options);
+  std::array<std::vector<std::pair<const void*, Sign>>, 2> orders;
+  for (const bool back_first : {false, true})
+    traverse(traits, tree, traits.eye(eye), back_first ? Direction::back_to_front : Direction::front_to_back,
+             [&](const auto& polygon, Sign side) { orders[back_first].emplace_back(&polygon, side); });
+  for (auto& order : orders) std::sort(order.begin(), order.end());
+  require(orders[0] == orders[1], "both orders have the same polygons, seen from the same sides");
+}
+
+/// A plane by Newell's sum, of any loop in it: concave, with corners in line, crossing itself.
+inline void try_exact_planes(generate::Random& random) {
+  const Exact_point base = generate::lattice(random, 9), u = generate::lattice(random, 5),
+                    v = generate::lattice(random, 5);
+  generate::Points loop;
+  for (std::uint64_t n = 3 + random.below(6); n > 0; --n) {
+    const Rational x = generate::integer(random, -6, 6) / 2, y = generate::integer(random, -6, 6) / 2;
+    Exact_point p = base;
+    for (std::size_t k = 0; k < 3; ++k) p[k] += x * u[k] + y * v[k];
+    loop.push_back(p);
+  }
+  Exact_plane expected{0, 0, 0, 0};
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Exact_point part = cross(loop[k], loop[(k + 1) % loop.size()]);
+    for (std::size_t i = 0; i < 3; ++i) expected[i] += part[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) expected[3] -= expected[i] * base[i];
+  require(exact_plane(loop) == expected, "a polygon's plane is that of its signed area");
+}
+
+/// A segment is near each box that it meets, to the end of doubles.
+inline void try_boxes_on_a_segment(generate::Random& random) {
+  using certificate_check::Outward_box;
+  std::array<int, 3> powers{};  // of each axis
+  for (int& power : powers)
+    power = static_cast<int>(random.chance(1, 2) ? random.between(995, 1022) : random.between(-60, 900));
+  const auto number = [&](std::size_t axis) {
+    return Rational(generate::integer(random, -9, 9) * generate::power_of_two(powers[axis]));
+  };
+  const Exact_point from{number(0), number(1), number(2)}, to{number(0), number(1), number(2)};
+  std::vector<Outward_box> boxes;
+  std::vector<bool> is_met;
+  for (std::uint64_t n = 1 + random.below(30); n > 0; --n) {
+    const bool on_it = random.chance(1, 3);
+    const Rational share = generate::integer(random, 0, 16) / 16, size = random.between(1, 9);
+    Exact_point p{number(0), number(1), number(2)};
+    if (on_it)
+      for (std::size_t k = 0; k < 3; ++k) p[k] = from[k] + share * (to[k] - from[k]);
+    boxes.emplace_back(certificate_check::Polygon{p, {p[0] + size, p[1], p[2]}, {p[0], p[1] + size, p[2]}});
+    is_met.push_back(on_it);
+  }
+  const std::vector<std::size_t> near = certificate_check::Boxes(boxes).near_segment(from, to);
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    require(!is_met[k] || std::find(near.begin(), near.end(), k) != near.end(),
+            "a segment is near a box that it meets");
+}
+
 // ---- Solids
 
 /// A prism over a triangle or a rectangle of the plane of two axes.
@@ -434,10 +541,11 @@ inline void try_units_of_a_prime(generate::Random& random) {
 }
 
 inline void small_promises(std::string_view bytes) {
-  static constexpr std::array<void (*)(generate::Random&), 12> laws{
-      try_units_of_a_prime, try_roots,   try_nearest_doubles,  try_rounded_planes,
-      try_common_inside,    try_motions, try_straight_corners, try_fins,
-      try_repeated_faces,   try_stars,   try_fine_origins,     try_seen_from_within};
+  static constexpr std::array<void (*)(generate::Random&), 16> laws{
+      try_mirrored_stars,   try_both_orders, try_exact_planes,     try_boxes_on_a_segment,
+      try_units_of_a_prime, try_roots,       try_nearest_doubles,  try_rounded_planes,
+      try_common_inside,    try_motions,     try_straight_corners, try_fins,
+      try_repeated_faces,   try_stars,       try_fine_origins,     try_seen_from_within};
   Bytes from(bytes);
   const auto law = laws[from.below(laws.size())];
   generate::Random random(from.word());
