@@ -5,7 +5,6 @@
 #include "decimal.h"
 #include "readers.h"
 #include "support.h"
-#include "volumes.h"  // before written.h, which has a Half_space, too
 #include "written.h"
 
 #include <sightline/algorithms/levels/cell_pvs.h>

@@ -3,6 +3,7 @@
 // motions of directions, numbers below the least normal one, corners that are hardly straight, faces within a volume,
 // edges of concave faces with a fin, faces given thrice, loops that come back, surfaces that wind round twice.
 
+#include "soups.h"
 #include "support.h"
 
 #include <sightline/algorithms/bsp/build.h>
@@ -196,7 +197,7 @@ inline void try_straight_corners(generate::Random& random) {
     return p;
   };
   const generate::Points corners{point(), point(), point()};
-  if (cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])) == Exact_point{0, 0, 0}) return;
+  if (!spans_a_plane(corners)) return;
   generate::Points given;
   for (std::size_t k = 0; k < 3; ++k) {
     const Exact_point way = minus(corners[(k + 1) % 3], corners[k]);
@@ -230,7 +231,7 @@ inline void try_seen_from_within(generate::Random& random) {
       for (Rational& x : p) x = generate::integer(random, 1, 15) / 16 + (within ? 0 : 2);
       face.push_back(p);
     }
-    if (cross(minus(face[1], face[0]), minus(face[2], face[0])) == Exact_point{0, 0, 0}) continue;
+    if (!spans_a_plane(face)) continue;
     faces.push_back(face);
     is_within.push_back(within);
   }
@@ -394,7 +395,7 @@ inline void try_mirrored_stars(generate::Random& random) {
     faces.push_back({rim[k], rim[(k + 1) % 5], top});
     faces.push_back({rim[(k + 1) % 5], rim[k], bottom});
   }
-  for (std::size_t k = faces.size(); k > 1; --k) std::swap(faces[k - 1], faces[random.below(k)]);
+  random.shuffle(faces);
   const Scene scene(generate::soup_of(faces));
   const Face_graph graph(scene);
   for (std::uint32_t node = 0; node < graph.size(); ++node)
@@ -412,7 +413,7 @@ inline void try_both_orders(generate::Random& random) {
   for (std::uint64_t k = 1 + random.below(4); k > 0; --k) {
     const generate::Points face{generate::lattice(random, 3), generate::lattice(random, 3),
                                 generate::lattice(random, 3)};
-    if (cross(minus(face[1], face[0]), minus(face[2], face[0])) != Exact_point{0, 0, 0}) faces.push_back(face);
+    if (spans_a_plane(face)) faces.push_back(face);
   }
   if (faces.empty()) return;
   const generate::Points& face = faces[random.below(faces.size())];
@@ -529,7 +530,7 @@ inline void try_units_of_a_prime(generate::Random& random) {
   for (auto& counts : counted) {
     std::vector<Polygon_soup> soups;
     for (generate::Faces faces : solids) {
-      for (std::size_t k = faces.size(); k > 1; --k) std::swap(faces[k - 1], faces[random.below(k)]);
+      random.shuffle(faces);
       for (generate::Points& face : faces)
         std::rotate(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(random.below(face.size())), face.end());
       soups.push_back(generate::soup_of(faces));

@@ -23,6 +23,11 @@ using sightline::dot;
 using Outline = std::vector<std::array<long, 2>>;
 using Outlines = std::vector<Outline>;  // the first, and its holes
 
+/// Whether the first three corners are not in line.
+inline bool spans_a_plane(const generate::Points& face) {
+  return cross(minus(face[1], face[0]), minus(face[2], face[0])) != Exact_point{0, 0, 0};
+}
+
 /// Convex, straight, concave, keyholes, pinched, with holes that touch; and what is set aside.
 inline Outlines outlines_without_thorns(Random& random) {
   static const std::vector<Outlines> some{

@@ -3,6 +3,7 @@
 // may meet a chart's plane, what a ray from far away passes by, where polygons of any size are halved, and
 // the pixels of an image whose directions are nearly in a plane.
 
+#include "soups.h"
 #include "support.h"
 
 #include <sightline/algorithms/image/painter.h>
@@ -41,10 +42,6 @@ namespace fuzz {
 
 // ---- Near a shaft
 
-inline bool spans_a_plane(const generate::Points& face) {
-  return cross(minus(face[1], face[0]), minus(face[2], face[0])) != Exact_point{0, 0, 0};
-}
-
 /// A corner for `face` that is farther behind the plane of three points than a shaft's planes may be from it, or hardly
 /// less: 10^-9 of what is 1 in the frame of the scene.
 inline Exact_point hardly_beside(const generate::Points& face, const Exact_point& apex, const Rational& unit,
@@ -80,7 +77,7 @@ inline void try_near_shaft(generate::Random& random) {
     for (const Triple& p : occluders.corners(2))
       for (const double x : p) most = std::max(most, std::fabs(x));
     const Exact_point apex = to[0];
-    if (cross(minus(from[1], from[0]), minus(apex, from[0])) == Exact_point{0, 0, 0}) return;
+    if (!spans_a_plane({from[0], from[1], apex})) return;
     (random.chance(1, 2) ? from : to)[2] = hardly_beside(from, apex, Rational(4 / exact(most)), random);
     if (!spans_a_plane(from) || !spans_a_plane(to)) return;
   }
@@ -285,15 +282,13 @@ inline void try_nearest_faces(generate::Random& random) {
 }
 
 inline void sure_doubles(std::string_view bytes) {
+  static constexpr std::array<void (*)(generate::Random&), 8> laws{
+      try_rays_where_doubles_end, try_bisector,     try_near_shaft, try_near_shaft,
+      try_chart_bounds,           try_chart_bounds, try_flat_views, try_nearest_faces};
   Bytes from(bytes);
-  const std::size_t kind = from.below(8);
+  const auto law = laws[from.below(laws.size())];
   generate::Random random(from.word());
-  if (kind == 7) try_nearest_faces(random);
-  else if (kind == 6) try_flat_views(random);
-  else if (kind == 0) try_rays_where_doubles_end(random);
-  else if (kind == 1) try_bisector(random);
-  else if (kind < 4) try_near_shaft(random);
-  else try_chart_bounds(random);
+  law(random);
 }
 
 }  // namespace fuzz

@@ -137,12 +137,12 @@ inline void volumes(std::string_view bytes) {
 
   // 1. Volumes, and whether they may be taken.
   std::vector<Faces> drawn;
-  std::vector<std::vector<Half_space>> insides;
+  std::vector<std::vector<rooms::Half_space>> insides;
   bool right = true;
   for (std::uint64_t count = 1 + random.below(4); count > 0; --count) {
     drawn.push_back(random.chance(1, 12) ? bent_room(random) : convex_room(random));
     insides.push_back(half_spaces_of(drawn.back()));
-    const bool is_convex = std::all_of(insides.back().begin(), insides.back().end(), [&](const Half_space& h) {
+    const bool is_convex = std::all_of(insides.back().begin(), insides.back().end(), [&](const rooms::Half_space& h) {
       return std::all_of(drawn.back().begin(), drawn.back().end(), [&](const Points& face) {
         return std::all_of(face.begin(), face.end(), [&](const Exact_point& p) { return h.side(p) <= 0; });
       });
@@ -150,7 +150,7 @@ inline void volumes(std::string_view bytes) {
     right = right && is_convex;
     if (!is_convex) continue;
     for (std::size_t k = 0; k + 1 < insides.size(); ++k) {
-      std::vector<Half_space> both = insides[k];
+      std::vector<rooms::Half_space> both = insides[k];
       both.insert(both.end(), insides.back().begin(), insides.back().end());
       right = right && !have_inside(both);
     }
@@ -210,7 +210,7 @@ inline void volumes(std::string_view bytes) {
     std::size_t leaf = drawn.size();
     for (std::size_t n = 0; n < order.size(); ++n)
       if (std::all_of(insides[order[n]].begin(), insides[order[n]].end(),
-                      [&](const Half_space& h) { return h.side(p) < 0; }))
+                      [&](const rooms::Half_space& h) { return h.side(p) < 0; }))
         leaf = n;
     require(static_cast<std::size_t>(-1 - at) == leaf, "a point's leaf is the volume that it is in");
   }
