@@ -41,11 +41,7 @@ Pixel_centres::Pixel_centres(const Pixel_view& view) : view_(view) {
   const std::array<double, 3> forth = cross(view.right, view.up);
   const double volume = dot(view.look, forth),
                sizes = dot(view.look, view.look) * dot(view.right, view.right) * dot(view.up, view.up);
-  const auto fine = [&](const std::array<double, 3>& half, std::uint32_t count) {  // too many pixels for doubles
-    return !(dot(view.look, view.look) * count * count < 0x1p39 * dot(half, half));
-  };
-  has_places_ = view.is_moderate() && volume * volume > 1e-6 * sizes && !fine(view.right, view.width) &&
-                !fine(view.up, view.height);
+  has_places_ = view.has_places_in_doubles();
   if (!has_places_) return;
   skewness_ = std::sqrt(sizes) / std::fabs(volume);
   for (const auto* axis : given) longest_ = std::max(longest_, 1 / std::sqrt(dot(*axis, *axis)));

@@ -65,14 +65,7 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
   const std::array<double, 3> forth = cross(view.right, view.up), across = cross(view.up, view.look),
                               upwards = cross(view.look, view.right);
   const double volume = dot(view.look, forth);
-  const bool skewed =
-      !(volume * volume > 1e-6 * dot(view.look, view.look) * dot(view.right, view.right) * dot(view.up, view.up));
-  // So many pixels to so small a field that the projection may be off by as much as one.
-  const auto fine = [&](const std::array<double, 3>& half, std::uint32_t count) {
-    return !(dot(view.look, view.look) * count * count < 0x1p39 * dot(half, half));
-  };
-  const bool by_projection =
-      view.is_moderate() && !skewed && !fine(view.right, view.width) && !fine(view.up, view.height);
+  const bool by_projection = view.has_places_in_doubles();
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     if (traits.side(viewpoint, faces.plane(i), counts) != CGAL::POSITIVE) continue;
     const priority_detail::Pixel_cone cone(priority_detail::positions(traits, faces[i]), view.eye);

@@ -6,12 +6,13 @@
 
 namespace sightline {
 
-bool Pixel_view::is_moderate() const {
-  const auto has_moderate_length = [](const std::array<double, 3>& axis) {
-    const double square = dot(axis, axis);
-    return square > 0x1p-200 && square < 0x1p200;
-  };
-  return has_moderate_length(look) && has_moderate_length(right) && has_moderate_length(up);
+bool Pixel_view::has_places_in_doubles() const {
+  const double looks = dot(look, look), rights = dot(right, right), ups = dot(up, up);
+  const auto is_moderate = [](double square) { return square > 0x1p-200 && square < 0x1p200; };
+  if (!is_moderate(looks) || !is_moderate(rights) || !is_moderate(ups)) return false;
+  const double volume = dot(look, cross(right, up));
+  const auto is_coarse = [&](double half, std::uint32_t count) { return looks * count * count < 0x1p39 * half; };
+  return volume * volume > 1e-6 * (looks * rights * ups) && is_coarse(rights, width) && is_coarse(ups, height);
 }
 
 std::array<double, 3> Pixel_view::ray(std::uint32_t x, std::uint32_t y) const {

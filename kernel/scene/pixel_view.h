@@ -16,9 +16,10 @@ struct Pixel_view {
   std::array<double, 3> look{}, right{}, up{};
   std::uint32_t width = 0, height = 0;
 
-  /// Whether all three directions are between 2^-100 and 2^100 long: then no product of a few of their coordinates is
-  /// too large or too small for doubles.
-  bool is_moderate() const;
+  /// Whether doubles tell where directions are in the image: its own are between 2^-100 and 2^100 long, so that no
+  /// product of a few of their coordinates is too large or too small; not nearly in a plane; and do not have so many
+  /// pixels in so small a field that a place may be off by as much as one. Proof: P-40
+  bool has_places_in_doubles() const;
   /// The direction of a pixel's centre, rounded to doubles.
   std::array<double, 3> ray(std::uint32_t x, std::uint32_t y) const;
   /// The same exactly. Pre: the directions are finite.

@@ -40,12 +40,12 @@ bool all_finite(std::span<const double> numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
-constexpr int of_heights = -12;  // heights are times this power of two, so that those of normals to 256 do not overflow
+constexpr double of_heights = 0x1p-12;  // heights are times this, so that those of normals to 256 do not overflow
 
-/// How far a point is along a normal, times 2^of_heights.
+/// How far a point is along a normal, times of_heights.
 double height_of(const Near_point& p, const Triple& normal) {
   double height = 0;
-  for (std::size_t k = 0; k < 3; ++k) height += normal[k] * std::ldexp(p.near[k], of_heights);
+  for (std::size_t k = 0; k < 3; ++k) height += normal[k] * (of_heights * p.near[k]);
   return height;
 }
 
@@ -77,7 +77,7 @@ Triple inward_of(const Near_polygon& polygon, std::size_t e) {
 Near_plane plane_at(const Near_frame& frame, const Triple& normal, double height, double extent) {
   const int step = std::ilogb(extent) - 10;
   const double rounded = std::ldexp(std::floor(std::ldexp(height, -step)), step);
-  const Rational offset = times_power(exact(rounded), -of_heights) * frame.unit();
+  const Rational offset = exact(rounded) / exact(of_heights) * frame.unit();
   std::array<Integer, 4> h;
   for (std::size_t k = 0; k < 3; ++k) h[k] = Integer(normal[k]) * offset.get_den();
   h[3] = -offset.get_num();
@@ -100,7 +100,7 @@ std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& game, c
       for (const Near_point& p : polygon) heights.push_back(height_of(p, inward));
       const double low = *std::min_element(heights.begin(), heights.end()),
                    high = *std::max_element(heights.begin(), heights.end());
-      if (!(high - low > std::ldexp(1e-12, of_heights)) || !all_finite(heights)) continue;
+      if (!(high - low > 1e-12 * of_heights) || !all_finite(heights)) continue;
       double empty = 0;  // the share of the height that is known to hold no line
       for (const double share : {0.5, 0.25, 0.75, 0.125, 0.875}) {
         if (share < empty || (empty == 0 && share > 0.5) || (empty == 0.5 && share < 0.5) ||
