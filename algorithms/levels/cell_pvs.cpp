@@ -3,7 +3,6 @@
 #include <sightline/algorithms/levels/ways.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
-#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/threads.h>
 #include <sightline/kernel/uniform.h>
@@ -327,10 +326,8 @@ class Cell_pvs_search::Maker {
     Weak_answer answer = nothing_known();
     answer.status = found.status;
     if (found.status == Weak_status::visible)
-      for (const std::size_t k : {0u, 1u}) {
-        const Located_point at = level.locate(scene.position(found.sightline[k].exact));
-        answer.sightline[k] = near_point(occluders_.frame(), {at.x, at.y, at.z, at.w});
-      }
+      for (const std::size_t k : {0u, 1u})
+        answer.sightline[k] = occluders_.located(scene.position(found.sightline[k].exact));
     return answer;
   }
 

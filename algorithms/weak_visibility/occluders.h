@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -40,6 +41,11 @@ class Occluders {
     return {grid(point, 0), grid(point, 1), grid(point, 2)};
   }
   Triple near_point_of(std::uint32_t point) const { return near(point); }
+  /// A point that need not be one of the scene. Exact: yes.
+  Near_point located(const Exact_point& p) const {
+    const Located_point at = scene_->locate(p);
+    return near_point(frame_, {at.x, at.y, at.z, at.w});
+  }
   /// What its coordinates leave, as in Near_point.
   Triple rest_of(std::uint32_t point) const { return rests_.empty() ? Triple{} : rests_[point]; }
   Near_polygon polygon(std::uint32_t piece) const;

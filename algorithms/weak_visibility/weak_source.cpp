@@ -1,6 +1,5 @@
 #include <sightline/algorithms/weak_visibility/weak_source.h>
 
-#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/vectors.h>
 
@@ -125,10 +124,7 @@ std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points) 
 
 Weak_source weak_source(const Occluders& occluders, const std::vector<Exact_point>& points) {
   Weak_source source;
-  for (const Exact_point& p : strict_corners(points)) {
-    const Located_point at = occluders.scene().locate(p);
-    source.polygon.push_back(near_point(occluders.frame(), {at.x, at.y, at.z, at.w}));
-  }
+  for (const Exact_point& p : strict_corners(points)) source.polygon.push_back(occluders.located(p));
   const auto &a = source.polygon[0].exact, &b = source.polygon[1].exact, &c = source.polygon[2].exact;
   const auto minor = [&](std::size_t i, std::size_t j, std::size_t k) {  // of the rows a, b, c
     return Integer(a[i] * (b[j] * c[k] - b[k] * c[j]) - a[j] * (b[i] * c[k] - b[k] * c[i]) +

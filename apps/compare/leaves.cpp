@@ -45,10 +45,7 @@ class Leaf_points {
         for (const std::uint32_t w : level.cells()[cell].walls)
           corners.insert(level.walls()[w].corners.begin(), level.walls()[w].corners.end());
         std::vector<Triple>& own = of_leaf.emplace_back();
-        for (const std::uint32_t p : corners) {
-          const Located_point at = level.scene().locate(level.points()[p]);
-          own.push_back(near_point(question.occluders.frame(), {at.x, at.y, at.z, at.w}).near);
-        }
+        for (const std::uint32_t p : corners) own.push_back(question.occluders.located(level.points()[p]).near);
       }
     }
   }

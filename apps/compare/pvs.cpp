@@ -111,10 +111,7 @@ Sets by_rays(const Cells_question& question, std::size_t rays, std::uint64_t see
     constexpr std::size_t rays_a_point = 16;
     Triple p{};
     for (std::size_t k = 0; k < rays; ++k) {
-      if (k % rays_a_point == 0) {
-        const Located_point at = scene.locate(points.any(random));
-        p = near_point(question.occluders.frame(), {at.x, at.y, at.z, at.w}).near;
-      }
+      if (k % rays_a_point == 0) p = question.occluders.located(points.any(random)).near;
       const auto hit = question.occluders.first_hit(p, {normal(random), normal(random), normal(random)});
       if (hit && hit->front) seen.insert(scene.pieces()[hit->piece].face);
     }

@@ -168,10 +168,6 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
     const std::vector<Flat_point> corners = chart_corners(scene, partition);
     std::array<long, 2> count;
     for (std::size_t k = 0; k < 2; ++k) count[k] = std::max(1L, std::lround(sides[n][k] / side));
-    const auto located = [&](const Exact_point& at) {
-      const Located_point p = scene.locate(at);
-      return near_point(occluders.frame(), {p.x, p.y, p.z, p.w});
-    };
     const auto reaches = [&](const Near_point& p) {
       const Weak_source& source = sources[random.below(sources.size())];
       std::array<Integer, 4> at{0, 0, 0, 0};
@@ -199,7 +195,7 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
           const Exact_point p = partition.point(x, y);
           if (!is_inside(scene, scene.pieces()[partition.piece], p)) continue;
           ++asked;
-          free += reaches(located(p));
+          free += reaches(occluders.located(p));
         }
         if (asked == 0) continue;
         const auto along = [](long at, long of) { return static_cast<double>(at) / static_cast<double>(of); };

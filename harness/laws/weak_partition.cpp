@@ -34,8 +34,7 @@ bool is_contradicted(const Occluders& occluders, const Weak_source& source, std:
                      const Light_partition& partition, const Light_partition::Cell& cell, Random& random) {
   constexpr int segments = 6;
   const Near_plane& plane = occluders.plane(piece);
-  const Located_point located = occluders.scene().locate(point_of(partition, cell.at));
-  const Near_point p = near_point(occluders.frame(), {located.x, located.y, located.z, located.w});
+  const Near_point p = occluders.located(point_of(partition, cell.at));
   for (int k = 0; k < segments; ++k) {
     Homogeneous sum{0, 0, 0, 0};
     for (const Near_point& corner : source.polygon) {

@@ -131,10 +131,6 @@ inline void try_chart_bounds(generate::Random& random) {
   const auto piece = static_cast<std::uint32_t>(scene.pieces()[0].face == 0 ? 0 : 1);
   const Near_frame& frame = occluders.frame();
   const Plane_chart chart(frame, occluders.polygon(piece), occluders.plane(piece));
-  const auto located = [&](const Exact_point& p) {
-    const auto at = scene.locate(p);
-    return near_point(frame, {at.x, at.y, at.z, at.w});
-  };
   std::array<Near<6>, 3> lines;
   std::array<Near_point, 3> met;
   for (std::size_t n = 0; n < 3; ++n) {
@@ -143,8 +139,8 @@ inline void try_chart_bounds(generate::Random& random) {
     for (std::size_t k = 0; k < 3; ++k)
       in_face[k] = face[0][k] + a * (face[1][k] - face[0][k]) + b * (face[2][k] - face[0][k]);
     if (dot(normal, minus(from, face[0])) == 0) return;
-    met[n] = located(in_face);
-    lines[n] = join(near(located(from)), near(met[n]));
+    met[n] = occluders.located(in_face);
+    lines[n] = join(near(occluders.located(from)), near(met[n]));
   }
   const Plane_chart::Bounds bounds = chart.bounds(lines);
   for (const Near_point& p : met) {
@@ -195,8 +191,7 @@ inline void try_bisector(generate::Random& random) {
     Near_polygon near;
     for (Exact_point& p : corners) {
       for (Rational& x : p) x *= generate::power_of_two(power);
-      const auto at = scene.locate(p);
-      near.push_back(near_point(occluders.frame(), {at.x, at.y, at.z, at.w}));
+      near.push_back(occluders.located(p));
     }
     return near;
   };

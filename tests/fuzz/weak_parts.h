@@ -245,10 +245,6 @@ inline void try_middle_corner(generate::Random& random) {
   if (scene.pieces().size() != corners.size()) return;
   const Occluders occluders(scene);
   const std::vector<harness::Flat_face> faces = harness::flat_faces_of(scene);
-  const auto near = [&](const Exact_point& p) {
-    const Located_point at = scene.locate(p);
-    return near_point(occluders.frame(), {at.x, at.y, at.z, at.w});
-  };
   for (int turn = 0; turn < 8; ++turn) {
     const Rational share = generate::integer(random, 1, 1000) / 1001;
     Exact_point m = generate::along(zero, share, random.chance(1, 2) ? b : c);
@@ -262,7 +258,9 @@ inline void try_middle_corner(generate::Random& random) {
     };
     if (std::any_of(faces.begin(), faces.end(), [&](const auto& f) { return f.height(p) == 0 || f.height(q) == 0; }))
       continue;
-    const bool is_blocked = occluders.blocker(near(p), near(q), occluders.plane(0), occluders.plane(0)).has_value();
+    const bool is_blocked =
+        occluders.blocker(occluders.located(p), occluders.located(q), occluders.plane(0), occluders.plane(0))
+            .has_value();
     require(is_blocked == std::any_of(faces.begin(), faces.end(), is_met), "a segment is blocked iff it meets a face");
   }
 }

@@ -57,11 +57,8 @@ TEST(Cell_proofs_of_cells_without_a_line, hold_where_their_sum_is_zero_for_some_
   const std::array<std::uint32_t, 2> edges{lines.of(1)[0].line, lines.of(2)[0].line};
   Line_domain domain(std::make_shared<const Near_polygon>(source.polygon),
                      std::make_shared<const Near_polygon>(occluders.polygon(0)));
-  const auto located = [&](const Exact_point& p) {
-    const Located_point grid = scene.locate(p);
-    return std::array<Integer, 4>{grid.x, grid.y, grid.z, grid.w};
-  };
-  const Exact_pluecker right = pluecker_of_pair(located({Rational(1, 2), 0, 0}), located({Rational(1, 2), 0, 1}));
+  const Exact_pluecker right = pluecker_of_pair(occluders.located({Rational(1, 2), 0, 0}).exact,
+                                                occluders.located({Rational(1, 2), 0, 1}).exact);
   Line_cell cell{&domain, &lines, &occluders.frame(), {}};
   for (std::size_t k = 0; k < 2; ++k) {
     const Side_row& row = domain.row(lines, edges[k], occluders.frame());
@@ -89,10 +86,7 @@ class Tangent_plates {
       cell.rows.push_back({k, {line, 1}, &row});
     }
   }
-  std::array<Integer, 4> on_axis(long z) const {
-    const Located_point p = scene_.locate(weak_scenes::at(0, 0, z));
-    return near_point(occluders_.frame(), {p.x, p.y, p.z, p.w}).exact;
-  }
+  std::array<Integer, 4> on_axis(long z) const { return occluders_.located(weak_scenes::at(0, 0, z)).exact; }
   const Near_plane& target_plane() const { return occluders_.plane(0); }
   const Near_plane& source_plane() const { return source_.plane; }
 
@@ -272,8 +266,7 @@ TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane
   const Occluders occluders(scene);
   const Weak_source source = weak_source(occluders, weak_scenes::rectangle(-1, 1, -1, 1, 0));
   const auto point = [&](const Rational& x, const Rational& y, const Rational& z) {
-    const Located_point p = scene.locate({x, y, z});
-    return near_point(occluders.frame(), {p.x, p.y, p.z, p.w});
+    return occluders.located({x, y, z});
   };
   const Rational half(1, 2);
   const auto blocker = [&](const Rational& y, const Rational& x) {
