@@ -125,6 +125,11 @@ Number parse_decimal(const Text_reader& text, std::string_view token) {
   }
   std::string significant_digits;
   std::copy_if(digits_begin, last, std::back_inserter(significant_digits), is_digit);
+  significant_digits.erase(0, significant_digits.find_first_not_of('0'));
+  if (static_cast<std::int64_t>(significant_digits.size()) + exponent >
+      static_cast<std::int64_t>(most_digits_before_point))
+    text.fail(token, quoted(token) + " has more than " + std::to_string(most_digits_before_point) +
+                         " digits before its point; scale the scene so that it has less");
   return detail::wide_decimal(negative, significant_digits, scale);
 }
 

@@ -31,6 +31,8 @@ using Number = std::variant<Decimal, double, Rational>;
 /// bytes would fill the memory, and one number of many places would make every coordinate on its grid as long. Every
 /// double is within it (the least is 5^1074 x 10^-1074).
 inline constexpr std::int64_t largest_decimal_exponent = 1100;
+/// So many digits before its point a decimal may have: every coordinate on its grid gets as long.
+inline constexpr std::size_t most_digits_before_point = 2200;
 
 void push(Coordinates& coordinates, const Number& number);
 

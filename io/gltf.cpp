@@ -57,13 +57,16 @@ class Tree_builder : public nlohmann::json_sax<Tree> {
   bool end_object() override { return close(); }
   bool start_array(std::size_t) override { return open(Tree::array()); }
   bool end_array() override { return close(); }
-  bool parse_error(std::size_t position, const std::string&, const Tree::exception&) override {
+  bool parse_error(std::size_t position, const std::string&, const Tree::exception& error) override {
+    constexpr int beyond_doubles = 406;
     error_at = position;
+    is_too_large = error.id == beyond_doubles;
     return false;
   }
 
   Tree root;
-  std::optional<std::size_t> error_at;  ///< how many bytes were read until then
+  std::optional<std::size_t> error_at;  ///< how many bytes were read until then, one more at the end
+  bool is_too_large = false;            ///< as it is a number beyond doubles
 
  private:
   static constexpr std::size_t deepest = 100;
@@ -96,6 +99,18 @@ class Tree_builder : public nlohmann::json_sax<Tree> {
   std::vector<Tree*> open_;  // an array grows only while nothing in it is open
   std::vector<std::string> keys_;
 };
+
+/// Where the word begins of which the last byte that was read is a part, or is behind; the end where all was read.
+std::size_t begin_of_word(std::string_view text, std::size_t read) {
+  if (read > text.size()) return text.size();
+  const auto is_of_word = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '+' ||
+           c == '-';
+  };
+  std::size_t at = read - std::min<std::size_t>(read, 1);
+  while (at > 0 && is_of_word(text[at - 1])) --at;
+  return at;
+}
 
 // ---- Where nodes put things
 
@@ -211,7 +226,7 @@ std::optional<std::string> path_of(std::string_view uri) {
   }
   const std::filesystem::path parts = path;
   if (parts.is_absolute() || std::find(parts.begin(), parts.end(), "..") != parts.end()) return std::nullopt;
-  return path;
+  return parts.lexically_normal().string();
 }
 
 class Gltf_reader {
@@ -274,7 +289,8 @@ class Gltf_reader {
     return (*all)[index];
   }
   std::uint64_t whole(const Tree& value, const std::string& place) const {
-    if (!value.is_number_unsigned()) fail(place, quoted(value.dump()) + " is no count or index; repair the file");
+    if (!value.is_number_unsigned())
+      fail(place, quoted(value.is_binary() ? text_of(value) : value.dump()) + " is no count or index; repair the file");
     return value.get<std::uint64_t>();
   }
   std::uint64_t whole_or(const Tree& in, const char* key, std::uint64_t otherwise, const std::string& place) const {
@@ -289,9 +305,11 @@ class Gltf_reader {
     if (!found->is_array()) fail(place + "." + key, "it is no list; repair the file");
     return *found;
   }
+  /// A number with a point or an exponent, as it stands there.
+  static std::string text_of(const Tree& value) { return {value.get_binary().begin(), value.get_binary().end()}; }
   Rational number(const Tree& value, const std::string& place) const {
     std::string text;
-    if (value.is_binary()) text.assign(value.get_binary().begin(), value.get_binary().end());
+    if (value.is_binary()) text = text_of(value);
     else if (value.is_number_integer()) text = value.dump();
     else fail(place, "it is no number; repair the file");
     try {
@@ -341,13 +359,22 @@ class Gltf_reader {
     binary_ = {input_.bytes.substr(next + chunk_header_size, binary_length), next + chunk_header_size};
   }
   void read_json(std::string_view text) {
-    Tree_builder builder;
-    if (!Tree::sax_parse(text.begin(), text.end(), &builder)) {
-      const std::string message = builder.error_at ? "this is no JSON; repair the file" : "the JSON is too deep";
-      const std::size_t at = builder.error_at ? std::min(*builder.error_at, text.size()) : 0;
+    const auto fail_at_place = [&](std::size_t at, const std::string& message) {
       if (json_begin_ == 0) input_.fail(text.data() + at, message);
       input_.fail_at_byte(json_begin_ + at, message);
+    };
+    Tree_builder builder;
+    // The parser takes a zero for the end; behind it a chunk may be filled up.
+    const std::size_t end = std::min(text.find('\0'), text.size());
+    if (!Tree::sax_parse(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(end), &builder)) {
+      const std::string message = !builder.error_at      ? "the JSON is too deep"
+                                  : builder.is_too_large ? "a number beyond the range of doubles; repair the file"
+                                                         : "this is no JSON; repair the file";
+      fail_at_place(builder.error_at ? begin_of_word(text, *builder.error_at) : 0, message);
     }
+    const std::string_view filling(json_begin_ == 0 ? "" : "\0 ", json_begin_ == 0 ? 0 : 2);
+    const std::size_t behind = std::min(text.find_first_not_of(filling, end), text.size());
+    if (behind != text.size()) fail_at_place(behind, "this is behind the end of the JSON; remove it");
     tree_ = std::move(builder.root);
   }
 
@@ -368,8 +395,11 @@ class Gltf_reader {
     } else if (!neighbour_) {
       fail(place, "its data are not in this file, but in " + quoted(text) + "; read it by its name, or write a .glb");
     } else {
-      made.own = neighbour_(*path);
+      const auto [file, is_new] = files_.try_emplace(*path);
+      if (is_new) bytes_beside_ += (file->second = neighbour_(*path)).size();
+      made.bytes = file->second;
       made.beside = quoted(*path);
+      return made;
     }
     made.bytes = made.own;
     bytes_beside_ += made.own.size();
@@ -583,9 +613,10 @@ class Gltf_reader {
   Read_options options_;
   std::size_t json_begin_ = json_begin;  // in the file; 0 where it is the file
   Tree tree_;
-  Buffer binary_;                            // the chunk; no bytes where there is none
-  std::map<std::uint64_t, Buffer> buffers_;  // those that were asked for
-  std::size_t bytes_beside_ = 0;             // of all buffers that are not in the file
+  Buffer binary_;                             // the chunk; no bytes where there is none
+  std::map<std::uint64_t, Buffer> buffers_;   // those that were asked for
+  std::map<std::string, std::string> files_;  // bytes by path: each is read once, however many buffers it is
+  std::size_t bytes_beside_ = 0;              // of all that is not in the file
   std::set<std::size_t> placed_;
   Grid_limit grid_;
   Polygon_soup soup_;

@@ -117,11 +117,15 @@ std::string data_array(std::string_view type, std::string_view name, int compone
   return text + " format=\"binary\">" + base64(header + bytes) + "</DataArray>\n";
 }
 
-/// In comments: arrays of strings are what many readers do not know.
+/// In comments, which may have no -- and not end with - : arrays of strings are what many readers do not know.
 std::string group_names(const Polygons& all) {
   std::string text;
-  for (std::size_t g = 0; g < all.groups().size(); ++g)
-    text += "<!-- group " + std::to_string(g) + " is " + all.groups()[g].name + " -->\n";
+  for (std::size_t g = 0; g < all.groups().size(); ++g) {
+    std::string name = all.groups()[g].name;
+    for (std::size_t k = 1; k < name.size(); ++k)
+      if (name[k - 1] == '-' && name[k] == '-') name[k] = '_';
+    text += "<!-- group " + std::to_string(g) + " is " + name + " -->\n";
+  }
   return text;
 }
 
@@ -183,6 +187,14 @@ Polygons::Point middle_of(const std::vector<Polygons::Point>& points) {
   return middle;
 }
 
+/// Of the power of two that points beside their middle are divided by, so that floats hold them: 0 where they do.
+int exponent_of(const std::vector<Polygons::Point>& points, const Polygons::Point& middle) {
+  double reach = 0;
+  for (const Polygons::Point& p : points)
+    for (std::size_t axis = 0; axis < 3; ++axis) reach = std::max(reach, std::fabs(p[axis] - middle[axis]));
+  return reach == 0 || (reach >= 0x1p-100 && reach <= 0x1p100) ? 0 : std::ilogb(reach);
+}
+
 /// What the format's colours are: light, not what a screen is told.
 double linear(std::uint8_t part) {
   const double s = part / 255.0;
@@ -193,7 +205,10 @@ double linear(std::uint8_t part) {
 class Gltf_writer {
  public:
   explicit Gltf_writer(const Polygons& all)
-      : all_(all), middle_(middle_of(all.points())), first_(all.polygons().size()) {
+      : all_(all),
+        middle_(middle_of(all.points())),
+        exponent_(exponent_of(all.points(), middle_)),
+        first_(all.polygons().size()) {
     each_polygon(all, [&](std::size_t i, std::size_t begin, std::size_t) { first_[i] = begin; });
   }
 
@@ -204,6 +219,7 @@ class Gltf_writer {
     Json tree{{"asset", {{"version", "2.0"}, {"generator", "sightline"}}}, {"scene", 0}};
     tree["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
     tree["nodes"] = Json::array({{{"translation", middle_}}});
+    if (exponent_ != 0) tree["nodes"][0]["scale"] = std::vector<double>(3, std::ldexp(1, exponent_));
     if (!primitives.empty()) {
       tree["nodes"][0]["mesh"] = 0;
       tree["meshes"] = Json::array({{{"primitives", std::move(primitives)}}});
@@ -241,7 +257,7 @@ class Gltf_writer {
       for (std::size_t k = first_[i]; k < end; ++k) {
         const Polygons::Point& p = all_.points()[all_.corners()[k]];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          places.push_back(static_cast<float>(p[axis] - middle_[axis]));
+          places.push_back(static_cast<float>(std::ldexp(p[axis] - middle_[axis], -exponent_)));
           least[axis] = std::min(least[axis], places.back());
           most[axis] = std::max(most[axis], places.back());
         }
@@ -311,6 +327,7 @@ class Gltf_writer {
 
   const Polygons& all_;
   Polygons::Point middle_;
+  int exponent_;
   std::vector<std::size_t> first_;  // corner of a polygon
   Json accessors_ = Json::array(), views_ = Json::array();
   std::string numbers_;  // four bytes each

@@ -9,11 +9,14 @@
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 namespace sightline {
 
@@ -75,6 +78,22 @@ void read_library(const Input& input, Materials& materials) {
   }
 }
 
+bool is_file(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error);
+}
+
+/// The rest of a line, names with blanks between; one name where there is a file of it, since exporters write names
+/// that have blanks.
+std::vector<std::string_view> names_of_libraries(Text_reader& text, const std::filesystem::path& folder) {
+  std::vector<std::string_view> names;
+  for (std::string_view name = text.next_token(); !name.empty(); name = text.next_token()) names.push_back(name);
+  if (names.size() < 2) return names;
+  const std::string_view all(names.front().data(), names.back().data() + names.back().size());
+  if (is_file(folder / std::filesystem::path(all))) return {all};
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::optional<Material>> read_materials(const std::filesystem::path& obj) {
@@ -88,9 +107,12 @@ std::vector<std::optional<Material>> read_materials(const std::filesystem::path&
   while (text.next_line()) {
     const std::string_view statement = text.next_token();
     if (statement == "mtllib") {
-      for (std::string_view name = text.next_token(); !name.empty(); name = text.next_token()) {
+      for (const std::string_view name : names_of_libraries(text, obj.parent_path())) {
         if (!read.emplace(name).second) continue;
         const std::filesystem::path path = obj.parent_path() / std::filesystem::path(name);
+        if (!is_file(path))
+          text.fail(name,
+                    "no file " + sightline::quoted(name) + " beside this one; put the library of materials there");
         const std::string library = read_bytes(path);
         read_library({path.string(), library}, materials);
       }

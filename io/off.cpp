@@ -117,9 +117,12 @@ void Off_reader::read_point(std::size_t i) {
   for (int k = 0; k < 3; ++k) {
     const std::string_view token = text_.next_token();
     const Number number = read_coordinate(text_, token, syntax_, options_);
-    if (const auto* value = std::get_if<Rational>(&number); value && syntax_ == Number_syntax::rational &&
-                                                            !options_.any_denominator &&
-                                                            !denominator_.include(value->get_den()))
+    const auto* value = std::get_if<Rational>(&number);
+    const bool is_limited = value && syntax_ == Number_syntax::rational && !options_.any_denominator;
+    if (is_limited && bit_length(value->get_num()) > bit_length(value->get_den()) + largest_common_denominator_bits)
+      text_.fail(token, "a coordinate beyond 2^" + std::to_string(largest_common_denominator_bits) +
+                            "; scale the scene so that it is less");
+    if (is_limited && !denominator_.include(value->get_den()))
       text_.fail(token, "common denominator of the coordinates needs more than " +
                             std::to_string(largest_common_denominator_bits) +
                             " bits; read the file with coordinates rounded to double (--coordinates double), or round "

@@ -159,14 +159,14 @@ class Map_reader {
       const std::string_view word = next_word("} or a brush");
       if (word == "}") break;
       if (word.starts_with('"')) {
-        if (word == "\"classname\"") {
-          const std::string_view value = text_.next_token();
+        const std::string_view key = quoted_from(word), value = quoted_from(text_.next_token());
+        if (key == "classname") {
           is_world = is_part_of_world(value);
-          name = without_quotes(value);
-        } else if (word == "\"origin\"" && are_places_wanted_) {
-          origin = read_origin(word);
+          name = value;
+        } else if (key == "origin" && are_places_wanted_) {
+          origin = origin_of(value);
         }
-        text_.finish_line();
+        finish_line();
       } else if (word == "{") {
         brushes.push_back(read_brush(word, brushes.size()));
       } else {
@@ -178,25 +178,45 @@ class Map_reader {
     for (const Brush& brush : brushes) add_faces(brush);
   }
   static bool is_part_of_world(std::string_view value) {
-    for (const std::string_view name : {"\"worldspawn\"", "\"func_group\"", "\"func_detail\"", "\"func_detail_wall\""})
+    for (const std::string_view name : {"worldspawn", "func_group", "func_detail", "func_detail_wall"})
       if (value == name) return true;
     return false;
   }
 
-  static std::string_view without_quotes(std::string_view word) {
-    if (word.starts_with('"')) word.remove_prefix(1);
-    if (word.ends_with('"')) word.remove_suffix(1);
-    return word;
-  }
-  /// The value of `origin`: "X Y Z".
-  Exact_point read_origin(std::string_view key) {
-    Exact_point origin;
-    for (Rational& coordinate : origin) {
-      const std::string_view token = text_.next_token();
-      const std::string_view number = without_quotes(token);
-      if (number.empty()) text_.fail(key, "an origin is \"X Y Z\", three decimals");
-      coordinate = value_of(read_coordinate(text_, number, Number_syntax::decimal, options_));
+  /// What is between the quotes of a key or a value that begins with a token, all on one line.
+  std::string_view quoted_from(std::string_view token) {
+    const std::string_view first = token;
+    const char* begin = token.data();
+    if (!token.starts_with('"')) begin = nullptr;
+    else token.remove_prefix(1);
+    while (begin != nullptr && !token.ends_with('"') && !(token = text_.next_token()).empty()) {
     }
+    const char* const end = token.data() + token.size() - 1;
+    if (begin == nullptr || token.empty() || std::find(begin + 1, end, '"') != end)
+      text_.fail(first, "no \"KEY\" \"VALUE\" here; write both on one line, with a blank between");
+    return {begin + 1, end};
+  }
+  /// Leaves a line behind, of which nothing is left that says more of the level.
+  void finish_line() {
+    for (std::string_view word = text_.next_token(); !word.empty() && !word.starts_with("//");
+         word = text_.next_token())
+      if (std::string_view("(){}\"").find(word[0]) != std::string_view::npos)
+        text_.fail(word, "unexpected " + quoted(word) + "; begin a line of its own with it");
+    text_.finish_line();
+  }
+  /// The value of `origin`: X Y Z.
+  Exact_point origin_of(std::string_view value) {
+    Exact_point origin;
+    const auto skip_blanks = [&] { value.remove_prefix(std::min(value.find_first_not_of(" \t"), value.size())); };
+    for (Rational& coordinate : origin) {
+      skip_blanks();
+      const std::string_view number = value.substr(0, value.find_first_of(" \t"));
+      if (number.empty()) text_.fail(value, "an origin is \"X Y Z\", three decimals");
+      coordinate = value_of(read_coordinate(text_, number, Number_syntax::decimal, options_));
+      value.remove_prefix(number.size());
+    }
+    skip_blanks();
+    if (!value.empty()) text_.fail(value, "an origin is \"X Y Z\", three decimals");
     return origin;
   }
 
@@ -234,7 +254,7 @@ class Map_reader {
       text_.fail(begin, "this side's plane takes numbers of " + std::to_string(bits_of(*side)) + " bits, more than " +
                             std::to_string(most_plane_bits) + "; give its points with fewer digits");
     side->is_drawn = is_drawn(text_.next_token());
-    text_.finish_line();
+    finish_line();
     return *std::move(side);
   }
   void expect(const char* word) {

@@ -62,7 +62,11 @@ class Point_merger {
         return mixed(static_cast<std::uint64_t>(decimal->mantissa), static_cast<std::uint64_t>(decimal->exponent));
       if (const auto* floating = std::get_if<double>(&number)) return std::hash<double>()(*floating);
       const Rational& value = std::get<Rational>(number);
-      return mpz_get_ui(value.get_num().get_mpz_t()) + 31 * mpz_get_ui(value.get_den().get_mpz_t());
+      std::uint64_t all = 0;
+      for (const Integer* part : {&value.get_num(), &value.get_den()})
+        for (std::size_t k = 0; k < mpz_size(part->get_mpz_t()); ++k)
+          all = mixed(all, mpz_getlimbn(part->get_mpz_t(), static_cast<mp_size_t>(k)));
+      return mixed(all, sgn(value) < 0 ? 1 : 0);
     }
     std::size_t operator()(const Point& point) const {
       std::uint64_t all = 0;
@@ -125,6 +129,9 @@ Polygon_soup read_stl_binary(const Input& input);
 
 void Stl_text_reader::read_solid() {
   expect("solid");
+  // A name may have any words, but what follows it on its line would be lost.
+  for (std::string_view word = text_.next_token(), before; !word.empty(); before = word, word = text_.next_token())
+    if (is(word, "normal") && is(before, "facet")) text_.fail(before, "a facet on the line of a name; break the line");
   text_.finish_line();
   for (;;) {
     const std::string_view word = next_word("facet");

@@ -148,7 +148,7 @@ const Facts& Model::Inside::facts() const {
     Facts found{c.points_read, c.points, c.faces_read, c.faces, c.pieces,           c.concave,   c.non_planar,
                 c.with_holes,  planes,   of.bits(),    {},      closure(of).closed, std::nullopt};
     found.arithmetic = name(of.predicates().arithmetic());
-    if (c.faces > 0) found.box = of.box();
+    if (c.faces > 0) found.box = of.box_of_faces();
     return found;
   });
 }

@@ -404,7 +404,8 @@ class Cutter {
       const Number area = area_vector(loop)[axis];
       return area < 0 ? -1 : area == 0 ? 0 : 1;
     };  // holes run against the contour
-    for (const Point_loop& loop : loops) add(loop, &loop != &loops[0] && sense(loop) == sense(loops[0]) ? 1 : -1);
+    const int of_contour = sense(loops[0]);
+    for (const Point_loop& loop : loops) add(loop, &loop != &loops[0] && sense(loop) == of_contour ? 1 : -1);
     return std::all_of(net.begin(), net.end(), [](const auto& entry) { return entry.second == 0; });
   }
 

@@ -21,7 +21,8 @@ enum class Piece_bounds { at_once, left_out };
 /// which is for the caller to note. Planar faces are cut as convex_parts() does, others into triangles, along the first
 /// axis that can.
 /// Pre: loops[0] is the contour; no point follows itself; all are of the grid that the planes of `faces` are of.
-/// Cost: O(k) for k points of a convex face, else O(k log k). Exact: yes. Proof: P-00, P-02, P-05
+/// Cost: O(k) for k points of a convex face, else O(k log k) on usual input, and O(k^2) for one that is not planar and
+/// that no projection makes simple. Exact: yes. Proof: P-00, P-02, P-05
 std::optional<Set_aside_reason> cut_face(const Grid_points& points, Face_id f, const std::vector<Point_loop>& loops,
                                          Scene_faces& faces, Piece_bounds edges = Piece_bounds::at_once);
 

@@ -22,7 +22,8 @@ struct Face_mesh;  ///< the OpenMesh: face_mesh.h
 /// that run along an edge in one direction, a vertex where two fans meet) has no edge there: OpenMesh refuses the piece
 /// that comes last, which is then a node with vertices of its own; refused() counts these. T-junctions join nothing,
 /// and corners on a straight side are no corners of a piece (see Scene), so a neighbour that has them as ends meets a
-/// T-junction. Cost: O(corners). Exact: yes. Proof: P-50
+/// T-junction. Cost: O(corners) where no vertex has more than a few faces; O(n^2) of one of n, as its edges are looked
+/// through for each. Exact: yes. Proof: P-50
 class Face_graph {
  public:
   /// Two nodes and the edge that they share: its direction is counterclockwise round the first.

@@ -132,4 +132,26 @@ std::array<Rational, 4> Scene::file_coefficients(Plane plane) const {
   return file_coefficients(predicates().coefficients(plane));
 }
 
+std::array<Exact_point, 2> Scene::box_of_faces() const {
+  std::array<Exact_point, 2> box;
+  for (int k = 0; k < 3; ++k) {
+    std::array<std::uint32_t, 2> ends{corners(pieces()[0])[0].point, corners(pieces()[0])[0].point};
+    Integer least = points().integer(ends[0], k), most = least;
+    for (const Piece& piece : pieces())
+      for (const Piece_corner& corner : corners(piece)) {
+        const Integer x = points().integer(corner.point, k);
+        if (x < least) {
+          least = x;
+          ends[0] = corner.point;
+        } else if (x > most) {
+          most = x;
+          ends[1] = corner.point;
+        }
+      }
+    const auto axis = static_cast<std::size_t>(k);
+    for (const std::size_t side : {0u, 1u}) box[side][axis] = position(ends[side])[axis];
+  }
+  return box;
+}
+
 }  // namespace sightline

@@ -25,7 +25,7 @@ struct Prepared_plane;
 /// pieces on their own vertices; what cannot be modelled is set aside for a Set_aside_reason and listed.
 /// Errors: std::out_of_range where a face names a point that there is not; std::length_error for 2^28 points or 2^30
 /// faces and more.
-/// Cost: O(n) hashing, O(k log k) for a face of k vertices. Exact: yes. Proof: P-00, P-01, P-02
+/// Cost: O(n) hashing, O(k log k) for a face of k vertices (see cut_face). Exact: yes. Proof: P-00, P-01, P-02
 class Scene {
  public:
   explicit Scene(const Polygon_soup& soup);
@@ -69,6 +69,8 @@ class Scene {
   Exact_point position(std::uint32_t point) const { return grid_.position(point); }
   /// The bounding box of all points used by the file, in its coordinates. Pre: there is a point.
   std::array<Exact_point, 2> box() const { return grid_.box(); }
+  /// The same of the corners of the faces that are kept. Pre: there is one. Cost: O(corners)
+  std::array<Exact_point, 2> box_of_faces() const;
 
  private:
   std::string file_;

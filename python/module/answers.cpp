@@ -90,7 +90,11 @@ py::tuple weak_from(const Model& model, const py::object& source, const py::list
   if (!faces.empty()) {
     std::vector<Face_id> bounds;
     for (const py::handle face : faces) bounds.push_back(checked_face(model, face));
-    for (const Face_id face : bounds) sightline::sources_of(model, face);  // none is left out
+    std::vector<bool> is_left_out(model.face_count());
+    for (const Left_out& one : model.left_out()) is_left_out[one.face] = true;
+    for (const Face_id face : bounds)
+      if (is_left_out[face])
+        throw std::out_of_range("face " + std::to_string(face) + " is not there, or was left out: see left_out()");
     volumes.push_back(generate::with_faces(model.soup(), bounds));
   }
   std::vector<std::vector<Exact_point>> sources;

@@ -33,7 +33,9 @@ Rational quotient_of(py::handle numerator, py::handle denominator) {
   const auto p = py::reinterpret_steal<py::object>(PyNumber_Index(numerator.ptr()));
   const auto q = py::reinterpret_steal<py::object>(PyNumber_Index(denominator.ptr()));
   if (!p || !q) throw py::error_already_set();
-  Rational value(integer_of(p), integer_of(q));
+  const Integer below = integer_of(q);
+  if (below == 0) throw py::value_error("a number has the denominator 0");
+  Rational value(integer_of(p), below);
   value.canonicalize();
   return value;
 }
@@ -84,7 +86,8 @@ Exact_point point_of(py::handle point, const std::string& what) {
   Exact_point exact;
   std::size_t k = 0;
   for (const py::handle number : py::reinterpret_borrow<py::iterable>(point)) {
-    if (k < 3) exact[k] = rational_of(number, what + '[' + std::to_string(k) + ']');
+    if (k == 3) throw py::value_error(wanted + ", not more");  // there may be no end of them
+    exact[k] = rational_of(number, what + '[' + std::to_string(k) + ']');
     ++k;
   }
   if (k != 3) throw py::value_error(wanted + ", not " + std::to_string(k));
@@ -99,6 +102,11 @@ std::vector<std::vector<Exact_point>> polygons_of(py::handle polygons, const std
       points.push_back(point_of(point, what + ": corner " + std::to_string(points.size())));
   }
   return all;
+}
+
+py::object text_of_bytes(const std::string& bytes) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeFSDefaultAndSize(bytes.data(), static_cast<Py_ssize_t>(bytes.size())));
 }
 
 py::object fraction(const Rational& value) {

@@ -23,6 +23,9 @@ Exact_point point_of(py::handle point, const std::string& what);
 std::vector<std::vector<Exact_point>> polygons_of(py::handle polygons, const std::string& what);
 
 /// A Fraction; a point of three of them.
+/// Bytes of the system, as a file's name, as text, in Python's way: os.fsencode() gives them back.
+py::object text_of_bytes(const std::string& bytes);
+
 py::object fraction(const Rational& value);
 py::tuple fractions(const Exact_point& point);
 

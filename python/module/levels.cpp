@@ -11,6 +11,8 @@
 #include <sightline/algorithms/levels/volumes.h>
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/io/file.h>
+#include <sightline/io/read.h>
+#include <sightline/kernel/quoted.h>
 #include <sightline/own_leaves.h>
 
 #include <filesystem>
@@ -28,12 +30,22 @@ struct Level {
   std::uint32_t volumes = 0;  // that they are within
 };
 
-/// The tree of the compiled level that a scene was read from. Errors: ValueError where it was not.
+bool have_same_points(const Polygon_soup& a, const Polygon_soup& b) {
+  if (a.point_count() != b.point_count() || a.face_count() != b.face_count()) return false;
+  for (Point_id p = 0; p < a.point_count(); ++p)
+    if (a.point(p) != b.point(p)) return false;
+  return true;
+}
+
+/// The tree of the compiled level that a scene was read from. Errors: ValueError where it was not, or has changed.
 Space_tree own_tree(const Model& model) {
   const std::string& file = model.soup().file;
   if (std::filesystem::is_regular_file(file))
-    if (const std::string bytes = read_bytes(file); looks_like_quake_level(bytes))
+    if (const std::string bytes = read_bytes(file); looks_like_quake_level(bytes)) {
+      if (!have_same_points(read_scene(file), model.soup()))
+        throw py::value_error(printable(file, file.size(), false) + " is no longer what was read; read it again");
       return space_tree(read_quake_level({file, bytes}), file);
+    }
   throw py::value_error("leaves are of a level that is compiled (.bsp, version 29) and was read; this scene is none");
 }
 

@@ -21,7 +21,8 @@ PYBIND11_MODULE(_sightline, module) {
       const py::object byte = error.byte ? py::object(py::int_(*error.byte)) : py::none();
       const py::object line = error.line > 0 ? py::object(py::int_(error.line)) : py::none();
       const py::object column = error.line > 0 ? py::object(py::int_(error.column)) : py::none();
-      PyErr_SetObject(input_error.ptr(), input_error(error.what(), error.file, line, column, byte).ptr());
+      const py::object said = text_of_bytes(error.what()), file = text_of_bytes(error.file);
+      PyErr_SetObject(input_error.ptr(), input_error(said, file, line, column, byte).ptr());
     } catch (const Out_of_budget& error) {
       PyErr_SetString(out_of_budget.ptr(), error.what());
     }

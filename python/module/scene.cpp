@@ -99,7 +99,7 @@ void check_starts(std::span<const std::int64_t> starts, std::size_t end, const s
   if (starts.empty() || starts.front() != 0 || starts.back() != static_cast<std::int64_t>(end))
     throw py::value_error(name + " has to begin with 0 and end with " + std::to_string(end) + ", the number of " + of);
   for (std::size_t i = 1; i < starts.size(); ++i)
-    if (starts[i] < starts[i - 1] + least)
+    if (starts[i] < starts[i - 1] || starts[i] - starts[i - 1] < least)
       throw py::value_error(name + '[' + std::to_string(i) + "] is " + std::to_string(starts[i]) + ", after " +
                             std::to_string(starts[i - 1]) +
                             (least > 0 ? "; a face has at least one loop" : "; give them in ascending order"));
@@ -318,7 +318,7 @@ void add_scene(py::module_& module) {
                   py::arg("question"))
       .def_static("read", &read, py::arg("file"), py::arg("round"), py::arg("flip"), py::arg("question"))
       .def("write", &write, py::arg("file"))
-      .def_property_readonly("file", [](const Model& model) { return model.soup().file; })
+      .def_property_readonly("file", [](const Model& model) { return text_of_bytes(model.soup().file); })
       .def_property_readonly("face_count", &Model::face_count)
       .def_property_readonly("point_count", [](const Model& model) { return model.soup().point_count(); })
       .def("left_out", &left_out_of)

@@ -3,6 +3,7 @@
 import operator
 import warnings
 from fractions import Fraction
+from itertools import islice
 from typing import Any, List, Optional, Sequence, Set, Tuple
 
 import numpy as np
@@ -13,14 +14,14 @@ Faces = Tuple[NDArray[Any], NDArray[np.int64], NDArray[np.int64]]
 _kept: Set[Any] = {np.dtype(t) for t in (np.float64, np.float32, np.int64, np.int32, object)}
 
 
-def _check_unmasked(array: Any, name: str) -> None:
+def check_unmasked(array: Any, name: str) -> None:
     if np.ma.is_masked(array):
         raise ValueError(f"{name} has numbers that are masked; give arrays without them")
 
 
 def points(V: Any) -> NDArray[Any]:
     """V as (n, 3) of a type that C++ reads, without a copy where it has one. Lists become Python's own numbers."""
-    _check_unmasked(V, "V")
+    check_unmasked(V, "V")
     array = V if isinstance(V, np.ndarray) else np.array(V, dtype=object)
     if array.size == 0 and array.ndim <= 2 and array.shape[-1] in (0, 3):
         return np.empty((0, 3))
@@ -51,11 +52,29 @@ def _whole(numbers: NDArray[Any], name: str) -> NDArray[Any]:
     return numbers.astype(np.uint64 if numbers.dtype.kind == "u" else np.int64)
 
 
+def kept_point(point: Any) -> Any:
+    """A point that a question takes and its answer keeps, whatever becomes of what it was given in."""
+    if isinstance(point, str) or not hasattr(point, "__iter__"):
+        return point
+    check_unmasked(point, "the point")
+    return tuple(islice(point.tolist() if isinstance(point, np.ndarray) and point.dtype != object else point, 4))
+
+
+def fraction(number: Any) -> Fraction:
+    """A number as it is."""
+    if not isinstance(number, (str, Fraction)) and hasattr(number, "as_integer_ratio"):
+        return Fraction(*number.as_integer_ratio())  # numpy's floats, too
+    return Fraction(number)
+
+
+def exact_point(point: Any) -> Tuple[Fraction, ...]:
+    """A point that a question takes."""
+    return tuple(fraction(x) for x in (point.split(",") if isinstance(point, str) else point))
+
+
 def rounded_point(point: Any) -> NDArray[np.float64]:
-    """A point that a question takes, rounded."""
-    coordinates = point.split(",") if isinstance(point, str) else point
-    rounded: NDArray[np.float64] = np.array([float(Fraction(x) if isinstance(x, str) else x) for x in coordinates])
-    return rounded
+    """The same, rounded."""
+    return np.array([float(x) for x in exact_point(point)])
 
 
 def is_index(x: Any) -> bool:
@@ -94,7 +113,7 @@ def _of_lists(F: Sequence[Any]) -> Faces:
 
 def faces(F: Any, offsets: Any, face_offsets: Any) -> Faces:
     """F as (m, k), or one row of corners with where loops and faces begin."""
-    _check_unmasked(F, "F")
+    check_unmasked(F, "F")
     if not isinstance(F, np.ndarray):
         if offsets is None and len(F) > 0 and not is_index(F[0]):
             return _of_lists(F)
@@ -154,10 +173,12 @@ def mesh(thing: Any) -> Tuple[NDArray[Any], Faces]:
             f"a {type(thing).__name__} is no mesh: it has no .vertices and .faces, .points and .faces, or .points and "
             ".cells; give V and F, or read a file by sightline.read(path)"
         )
-    _check_unmasked(where, "the mesh")
-    _check_unmasked(what, "the mesh")
-    V = points(np.asarray(where))
+    check_unmasked(where, "the mesh")
+    check_unmasked(what, "the mesh")
+    V = points(where if isinstance(where, (list, tuple)) else np.asarray(where))
     if getattr(thing, "faces", None) is None and getattr(thing, "triangles", None) is None:
         return V, _of_cells(what)
+    if isinstance(what, (list, tuple)) and not (len(what) > 0 and is_index(what[0])):
+        return V, faces(what, None, None)
     F = np.asarray(what)
     return V, (_of_padded(F) if F.ndim == 1 and F.size > 0 and F.dtype != object else faces(what, None, None))

@@ -4,14 +4,13 @@ import json
 import operator
 import os
 import time
-from fractions import Fraction
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
 from . import _sightline
 from ._answers import Ids, Point
-from ._arrays import whole_number
+from ._arrays import fraction, is_index, whole_number
 from ._progress import Progress, followed
 from ._scene import Path, Scene, _question
 
@@ -122,7 +121,7 @@ def _off(answer: Any) -> str:
     if answer is None:
         return "abstained"
     points, faces = answer
-    lines = [" ".join(str(Fraction(x)) for x in point) for point in points]
+    lines = [" ".join(str(fraction(x)) for x in point) for point in points]
     lines += [" ".join(str(operator.index(i)) for i in (len(face), *face)) for face in faces]
     return "\n".join([f"OFF\n{len(points)} {len(faces)} 0", *lines, ""])
 
@@ -343,7 +342,7 @@ def judge(
     known = _sightline.families()
     if isinstance(families, str):
         families = [families]
-    if isinstance(ulps, (int, str)):
+    if isinstance(ulps, str) or is_index(ulps):
         ulps = [ulps]
     names = [name for name, _, _, _, holes in known if not holes] if families is None else list(families)
     court = _Court(function, query, contract, options, exact, triangles, cycles, budget, threads)

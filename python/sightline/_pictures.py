@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _sightline
+from ._arrays import exact_point, fraction
 from ._progress import Progress, followed
 
 if TYPE_CHECKING:
@@ -21,7 +22,18 @@ def _doubles(direction: Any, what: str) -> Doubles:
     doubles = np.asarray(direction, dtype=float)
     if doubles.shape != (3,) or not np.all(np.isfinite(doubles)):
         raise ValueError(f"{what} is {direction!r}; give a direction of three finite numbers")
-    return doubles
+    largest = np.max(np.abs(doubles))
+    # Neither huge nor tiny, so that its length can be told; by a power of two, so that it is the same direction.
+    return np.ldexp(doubles, -int(np.frexp(largest)[1])) if largest > 0 else doubles
+
+
+def middle_from(eye: Any, box: Any) -> Tuple[float, ...]:
+    """The direction to the middle of a box, its longest coordinate 1 long."""
+    way = [(fraction(a) + fraction(b)) / 2 - x for a, b, x in zip(box[0], box[1], exact_point(eye))]
+    size = max(map(abs, way))
+    if size == 0:
+        raise ValueError("the eye is in the middle of the scene; give look, the direction to look in")
+    return tuple(float(x / size) for x in way)
 
 
 def axes_of(look: Any, up: Any, field: float, size: Tuple[int, int]) -> Axes:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from . import _sightline
 from ._answers import Ids, Point
+from ._arrays import check_unmasked
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -29,7 +30,9 @@ class Hit(NamedTuple):
 def _rows(numbers: Any, name: str) -> NDArray[Any]:
     if isinstance(numbers, str):
         raise TypeError(f"{name} is text; give points of three numbers")
-    array = numbers if isinstance(numbers, np.ndarray) else np.array(numbers, dtype=object)
+    check_unmasked(numbers, name)
+    # A copy, as answers keep it.
+    array = np.array(numbers, dtype=None if isinstance(numbers, np.ndarray) else object)
     if array.size == 0:
         array = np.empty((0, 3))
     if array.ndim == 1:

@@ -14,7 +14,7 @@ from ._along import SeenAlong
 from ._answers import Certificate, Graph, Order, Parts, Tracker, Verdict, View, WeakView
 from ._levels import Cells, PotentiallyVisible, counts_of
 from ._partition import LightPartition
-from ._pictures import Picture, axes_of, size_of
+from ._pictures import Picture, axes_of, middle_from, size_of
 from ._progress import Progress, followed
 from ._rays import Rays, as_doubles, pairs
 from ._shadows import Shadow
@@ -73,7 +73,7 @@ class Scene:
         """
         if coordinates not in ("exact", "double"):
             raise ValueError(f"coordinates is {coordinates!r}; give 'exact' or 'double'")
-        return Scene._of(_sightline.Model.read(os.fspath(path), coordinates == "double", flip, _question(0, None, 0)))
+        return Scene._of(_sightline.Model.read(os.fsencode(path), coordinates == "double", flip, _question(0, None, 0)))
 
     def __reduce__(self) -> Tuple[Any, ...]:
         """For pickle and copy: points and faces, as they are; not the file that they were read from."""
@@ -135,8 +135,11 @@ class Scene:
         return [group[0] if len(group) == 1 else group for group in groups]
 
     def write(self, path: Path) -> None:
-        """Writes the scene exactly, in the format that the ending says. Errors: ValueError where it cannot hold it."""
-        self._model.write(os.fspath(path))
+        """Writes the scene exactly, in the format that the ending says. Errors: ValueError where it cannot hold it.
+
+        What of a .qoff has a common denominator beyond 8192 bits is read only with coordinates="double".
+        """
+        self._model.write(os.fsencode(path))
 
     def to_trimesh(self) -> Any:
         """The convex parts as a trimesh.Trimesh: coordinates rounded; face_attributes["face"] are the ids of faces."""
@@ -161,6 +164,7 @@ class Scene:
         >>> cube.order((5, 5, 5)).certificate().verify().accepted
         True
         """
+        eye = _arrays.kept_point(eye)
         with followed(progress, "order") as told:
             found = _sightline.order(self._model, eye, _question(threads, told, budget))
         return Order(self, eye, *found)
@@ -193,6 +197,7 @@ class Scene:
         >>> seen.visible, seen.areas
         (array([0, 1]), array([6. , 0.5]))
         """
+        eye = _arrays.kept_point(eye)
         with followed(progress, "see") as told:
             found = _sightline.see(self._model, eye, frustum, _question(threads, told, budget))
         return View(self, eye, two_sided, *found)
@@ -221,13 +226,10 @@ class Scene:
                [-1, -1,  0,  0,  0,  0],
                [-1, -1, -1, -1, -1, -1]])
         """
-        pixels = size_of(size)
+        pixels, eye = size_of(size), _arrays.kept_point(eye)
         if look is None:
             box = self.info()["box"]
-            at = _arrays.rounded_point(eye)
-            look = np.asarray(box, dtype=float).mean(axis=0) - at if box is not None else np.array([0.0, 1.0, 0.0])
-            if not np.any(look):
-                raise ValueError("the eye is in the middle of the scene; give look, the direction to look in")
+            look = (0, 1, 0) if box is None else middle_from(eye, box)
         axes = axes_of(look, up, field, pixels)
         with followed(progress, "render") as told:
             found = _sightline.centres(self._model, eye, axes, *pixels, _question(threads, told, budget))
@@ -327,6 +329,7 @@ class Scene:
         >>> [(event.t.root, event.appear) for event in walk.events]
         [(Fraction(1, 3), [0]), (Fraction(2, 3), [1]), (Fraction(7, 9), [0])]
         """
+        start, end = _arrays.kept_point(start), _arrays.kept_point(end)
         with followed(progress, "along the path") as told:
             question = _question(threads, told, budget, two_sided)
             return SeenAlong(self, start, end, *_sightline.see_along(self._model, start, end, question))
@@ -356,7 +359,8 @@ class Scene:
         if (light is None) == (sun is None):
             raise ValueError("give a light, a point, or a sun, the direction to it; for several, ask several times")
         with followed(progress, "shadow") as told:
-            at, question = (light if sun is None else sun), _question(threads, told, budget, two_sided)
+            at = _arrays.kept_point(light if sun is None else sun)
+            question = _question(threads, told, budget, two_sided)
             found = _sightline.shadow(self._model, at, sun is not None, question)
         return Shadow(self, at, sun is not None, *found)
 

@@ -172,6 +172,9 @@ def test_set_operations(exact):
     asked = dict(query="boolean", families=["leaves", "boxes"], ulps=[0, "far"], cases=3, exact=exact, triangles=True)
     report = sightline.judge(result, **asked)
     assert report and report.total["right"] > 6, report
+    small = dict(asked, families=["boxes"], ulps=np.int64(0))
+    narrow = sightline.judge(lambda V, F, asked: (np.array(result(V, F, asked)[0], np.float32), result(V, F, asked)[1]), **small)
+    assert narrow.total["invalid"] == 0 < narrow.total["right"]
     union = sightline.judge(lambda V, F, asked: result(V, F, ("union", asked[1])), contract="conservative", **asked)
     assert union and union.total["wrong"] > 0, union
     wrong = sightline.judge(both, reduce=1, **asked)

@@ -213,6 +213,16 @@ def test_leaves_of_a_compiled_level(tmp_path):
     ]
     with pytest.raises(ValueError, match="give one of them"):
         level.cells(leaves=True, grid=(1, 1, 1))
+    copy = tmp_path / "level.bsp"
+    copy.write_bytes(file.read_bytes())
+    other = sightline.read(copy)
+    assert len(other.cells(leaves=True)) == len(cells)
+    bytes_of = bytearray(copy.read_bytes())
+    vertices = int.from_bytes(bytes_of[28:32], "little")  # the third lump
+    bytes_of[vertices : vertices + 4] = np.float32(77).tobytes()
+    copy.write_bytes(bytes_of)
+    with pytest.raises(ValueError, match="no longer what was read"):
+        other.cells(leaves=True)
     for scene in (two_rooms(), sightline.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])):
         with pytest.raises(ValueError, match="compiled"):
             scene.pvs(leaves=True)

@@ -143,3 +143,13 @@ def test_set_operations_are_proved():
     assert not taken.verify().accepted
     with pytest.raises(ValueError):
         sightline.SolidCertificate(less.scene, (cube, other), "{}").verify()
+
+
+@pytest.mark.parametrize("scale", [Fraction(10) ** 200, Fraction(1, 10**200), Fraction(10) ** 400, Fraction(1, 10**400)])
+def test_scenes_of_any_size_are_looked_at(scale):
+    corners = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [900, 900, 900]]  # the last is of no face
+    eye = (scale, scale, 5 * scale)
+    scene = Scene([[scale * x for x in p] for p in corners], [[0, 1, 2]])
+    picture = scene.render(eye, up=(0, 1e-200, 0), size=(8, 6))
+    assert np.array_equal(picture.faces, Scene(corners, [[0, 1, 2]]).render((1, 1, 5), up=(0, 1, 0), size=(8, 6)).faces)
+    assert (picture.faces == 0).any() and (picture.faces < 0).any()

@@ -1,5 +1,6 @@
 """Rays and solids, against exact arithmetic done here."""
 
+import itertools
 import random
 from fractions import Fraction
 
@@ -135,3 +136,25 @@ def test_solids():
         sightline.boolean("minus", box, moved)
     with pytest.raises(ValueError, match="solid 1 bounds no solid"):
         sightline.boolean("union", box, sightline.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+
+
+def test_answers_keep_what_they_were_asked():
+    lid = sightline.Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
+    origins, down = np.array([[0.25, 0.25, 3], [1, 1, 3]]), np.array([0, 0, -1.0])
+    rays = lid.trace(origins, down)
+    origins[:], down[:] = 9, 9
+    assert [hits[0].face for hits in rays] == [1, 0] and rays.points.tolist() == [[0.25, 0.25, 1], [1, 1, 0]]
+    eye = np.array([0, 0, 2.0])
+    seen, tracked, shadow = lid.see(eye), lid.order(eye), lid.shadow(eye)
+    picture, walk = lid.render(eye, look=(0, 0, -1), up=(0, 1, 0), size=(4, 4)), lid.see_along(eye, eye + 1)
+    before = seen.solid_angles.copy(), picture.means(np.eye(2, 3))[0], shadow.space().volume
+    eye += 5
+    assert np.array_equal(seen.solid_angles, before[0]) and seen.eye == tracked.eye == (0, 0, 2) == walk.start
+    assert np.array_equal(picture.means(np.eye(2, 3))[0], before[1]) and shadow.space().volume == before[2]
+    assert np.array_equal(lid.see(iter([0, 0, 2])).solid_angles, before[0])
+    with pytest.raises(ValueError, match="wants three numbers"):
+        lid.see(itertools.count())
+    with pytest.raises(ValueError, match="masked"):
+        lid.trace(np.ma.array([[0.25, 0.25, 3]], mask=[[1, 0, 0]]), (0, 0, -1))
+    with pytest.raises(ValueError, match="masked"):
+        lid.see(np.ma.array([0.25, 0.25, 3], mask=[1, 0, 0]))

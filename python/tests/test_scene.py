@@ -2,6 +2,7 @@
 
 import copy
 import decimal
+import os
 import pickle
 import sys
 import types
@@ -95,6 +96,7 @@ def test_polygons_and_holes():
         ([[True, 0, 0]], [[0, 0, 0]], TypeError, r"V\[0, 0\] is a bool"),
         ([[None, 0, 0]], [[0, 0, 0]], TypeError, r"V\[0, 0\] is a NoneType"),
         ([["a", 0, 0]], [[0, 0, 0]], ValueError, "a"),
+        ([[types.SimpleNamespace(numerator=1, denominator=0), 0, 0]], [[0, 0, 0]], ValueError, "the denominator 0"),
         ([[0, float("nan"), 0]], [[0, 0, 0]], ValueError, r"V\[0, 1\] is nan"),
         (np.array([[0, np.inf, 0]]), [[0, 0, 0]], ValueError, r"V\[0, 1\] is inf"),
         (np.array([[0, 0, np.nan]], np.float32), [[0, 0, 0]], ValueError, r"V\[0, 2\] is nan"),
@@ -126,6 +128,8 @@ def test_what_is_no_scene_is_refused(V, F, error, words):
         ([0, 3, 1, 3], None, "ascending"),
         ([0, 3], [0, 0, 1], "at least one loop"),
         ([0, 3], [0, 2], "end with 1"),
+        ([0, 3], [0, 2**63 - 1, 1], "after 9223372036854775807"),
+        ([0, 2**63 - 1, 3], None, "after 9223372036854775807"),
     ],
 )
 def test_offsets_that_do_not_add_up_are_refused(offsets, face_offsets, words):
@@ -170,6 +174,11 @@ def test_meshes_of_others():
         sightline.Scene(types.SimpleNamespace(points=V, cells=[("tetra", [[0, 1, 2, 3]])]))
     with pytest.raises(ValueError, match="5 corners follow"):
         sightline.Scene(types.SimpleNamespace(points=V, faces=np.array([5, 0, 1, 2])))
+    lists = types.SimpleNamespace(points=[[2**53 + 1, 0, 0], [0.5, 0, 0], ["0.1", 1, 0]], faces=[[0, 1, 2], [0, 1, 2, 0]])
+    scene = sightline.Scene(lists)
+    assert scene.points(exact=True)[[0, 2], 0].tolist() == [2**53 + 1, Fraction(1, 10)]
+    assert [len(f) for f in scene.faces()] == [3, 4]
+    assert sightline.Scene(types.SimpleNamespace(points=V.tolist(), faces=padded.tolist())).face_count == 2
     with pytest.raises(TypeError, match="no mesh"):
         sightline.Scene(object())
 
@@ -212,6 +221,20 @@ def test_files(tmp_path):
     with pytest.raises(sightline.InputError) as caught:
         sightline.read(tmp_path / "none.obj")
     assert caught.value.line is None
+    strange = os.fsdecode(os.fsencode(tmp_path) + b"/\xff.off")  # no UTF-8
+    scene.write(strange)
+    for path in (strange, os.fsencode(strange)):
+        assert sightline.read(path)._model.file == strange
+    with open(strange, "w", encoding="utf-8") as file:
+        file.write("OFF\n1 0 0\n0 0 oh\n")
+    with pytest.raises(sightline.InputError, match="oh") as caught:
+        sightline.read(strange)
+    assert caught.value.file == strange
+
+
+def test_the_box_is_that_of_faces():
+    scene = sightline.Scene([*square, [1000, 1000, 1000], [-5, 0, 0], [-6, 0, 0]], [[0, 1, 2, 3], [4, 5, 4]])
+    assert scene.info()["box"] == ((0, 0, 0), (1, 1, 0))
 
 
 def test_scenes_are_pickled_and_copied_exactly():

@@ -1,6 +1,7 @@
 // Scenes in glTF: what nodes make of meshes, exactly; and what is refused.
 
 #include <sightline/io/binary.h>
+#include <sightline/io/gltf.h>
 #include <sightline/io/file.h>
 #include <sightline/io/grouped_polygons.h>
 #include <sightline/io/read.h>
@@ -354,6 +355,52 @@ TEST(Read_gltf, finds_its_buffers_beside_it) {
   std::filesystem::remove(folder / "indices.bin");
   EXPECT_NE(refused().find("indices.bin"), std::string::npos) << refused();
   std::filesystem::remove_all(folder);
+}
+
+TEST(Read_gltf, reads_a_file_once_however_many_buffers_it_is) {
+  Glb gltf(triangle);
+  gltf.tree["buffers"] = Tree::array();
+  gltf.tree["bufferViews"] = Tree::array();
+  gltf.tree["accessors"] = Tree::array();
+  Tree primitives = Tree::array();
+  for (std::size_t k = 0; k < 5; ++k) {
+    gltf.tree["buffers"].push_back({{"uri", k % 2 == 0 ? "a.bin" : "././/a.bin"}});
+    gltf.tree["bufferViews"].push_back({{"buffer", k}, {"byteLength", 36}});
+    gltf.tree["accessors"].push_back({{"bufferView", k}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}});
+    primitives.push_back({{"attributes", {{"POSITION", k}}}});
+  }
+  gltf.tree["meshes"][0]["primitives"] = primitives;
+  int reads = 0;
+  const std::string text = gltf.tree.dump();
+  const Polygon_soup soup = read_gltf({"it", text}, {}, [&](const std::string& path) {
+    EXPECT_EQ(path, "a.bin");
+    ++reads;
+    return gltf.binary;
+  });
+  EXPECT_EQ(soup.face_count(), 5u);
+  EXPECT_EQ(reads, 1);
+}
+
+TEST(Read_gltf, json_that_is_none_is_told_where_its_token_begins) {
+  const auto said = [](const std::string& text) {
+    try {
+      read_scene(text, Format::gltf, "it");
+    } catch (const Input_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(said("{\"asset\": x}"), "it:1:11: this is no JSON; repair the file");
+  EXPECT_EQ(said("{\"asset\": {\"version\":\"2.0\"},\n \"nodes\": [1,2,\n nul ]}"),
+            "it:3:2: this is no JSON; repair the file");
+  EXPECT_EQ(said("{\"asset\":\n{\"version\":\"2.0\"}}\n}"), "it:3:1: this is no JSON; repair the file");
+  EXPECT_EQ(said("{\"a\": \"b\tc\"}"), "it:1:8: this is no JSON; repair the file");
+  EXPECT_EQ(said("{\"a\": "), "it:1:7: this is no JSON; repair the file");
+  EXPECT_EQ(said("{\"a\": -1.5e+400}"), "it:1:7: a number beyond the range of doubles; repair the file");
+  const Glb gltf(triangle);
+  for (const std::string& behind : {std::string("\0", 1), std::string("\0 ]", 3), std::string("\0{}", 3)})
+    EXPECT_NE(said(gltf.tree.dump() + behind).find("this is behind the end of the JSON; remove it"), std::string::npos)
+        << said(gltf.tree.dump() + behind);
 }
 
 TEST(Read_gltf, of_buffers_that_are_nowhere_says_so) {

@@ -20,12 +20,14 @@ using namespace sightline;
 using nlohmann::json;
 
 /// A square and a pentagon that share an edge, a triangle of no face far from both, and a group without polygons.
-Grouped_polygons drawing(const Rational& offset = 0) {
+Grouped_polygons drawing(const Rational& offset = 0, const Rational& scale = 1) {
   Grouped_polygons all;
   all.add_group("visible", {255, 0, 128});
   all.add_group("none", {1, 2, 3});
   all.add_group("source", {10, 20, 30});
-  const auto at = [&](long x, long y, Rational z) { return Exact_point{x + offset, y, z}; };
+  const auto at = [&](long x, long y, const Rational& z) {
+    return Exact_point{scale * (x + offset), scale * y, scale * z};
+  };
   all.add_polygon(0, 7, {at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0)});
   all.add_polygon(0, 9, {at(1, 1, 0), at(1, 0, 0), at(2, 0, 0), at(3, 1, 0), at(2, 2, 0)});
   all.add_polygon(2, Grouped_polygons::no_face, {at(0, 0, Rational(1, 3)), at(5, 0, 1), at(0, 5, 1)});
@@ -148,6 +150,24 @@ TEST(Grouped_polygons, far_away_keep_their_shape_in_gltf) {
   EXPECT_EQ(gltf.tree["nodes"][0]["translation"][0], std::ldexp(1, 40) + 2.5);
 }
 
+TEST(Grouped_polygons, beyond_floats_keep_their_shape_in_gltf) {
+  const Gltf near(drawing_bytes(drawing(), Drawing_format::glb));
+  const auto places = [](const Gltf& of) {
+    return of.values<float>(of.tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"]);
+  };
+  EXPECT_FALSE(near.tree["nodes"][0].contains("scale"));
+  for (const int exponent : {130, 900, -200, -1000}) {
+    Rational scale = 1;
+    if (exponent > 0) mpq_mul_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+    else mpq_div_2exp(scale.get_mpq_t(), scale.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+    const Gltf gltf(drawing_bytes(drawing(0, scale), Drawing_format::glb));
+    std::vector<float> doubled = places(gltf);
+    for (float& x : doubled) x *= 2;  // the drawing is five long, so that its scale is twice that
+    EXPECT_EQ(doubled, places(near)) << exponent;
+    EXPECT_EQ(gltf.tree["nodes"][0]["scale"], json(std::vector<double>(3, std::ldexp(2, exponent)))) << exponent;
+  }
+}
+
 /// The numbers of an array of VTK's XML: eight bytes of length, then they, in base64.
 std::string vtk_array(const std::string& text, const std::string& name) {
   std::size_t at = text.find("Name=\"" + name + "\"");
@@ -195,6 +215,13 @@ TEST(Grouped_polygons, are_cells_with_data_in_vtk) {
     EXPECT_NE(text.find("<!-- group 2 is source -->"), std::string::npos);
   }
   EXPECT_EQ(vtk_array(drawing_bytes(all, Drawing_format::vtu), "types"), "\7\7\7");
+}
+
+TEST(Grouped_polygons, have_names_in_vtk_that_end_no_comment) {
+  Grouped_polygons all;
+  all.add_group("1-x_---_y--", {});
+  EXPECT_NE(drawing_bytes(all, Drawing_format::vtp).find("<!-- group 0 is 1-x_-_-_y-_ -->"), std::string::npos)
+      << drawing_bytes(all, Drawing_format::vtp);
 }
 
 TEST(Grouped_polygons, may_be_none) {

@@ -58,6 +58,18 @@ TEST_F(Materials, are_those_of_the_last_usemtl) {
   EXPECT_TRUE(read_materials(file("none.obj", "v 0 0 0\n")).empty());
 }
 
+TEST_F(Materials, stand_in_libraries_whose_names_may_have_blanks) {
+  file("two  words.mtl", "newmtl m\nd 0.5\n");
+  file("words.mtl", "newmtl m\nd 0.25\n");
+  const auto opacity = [&](const std::string& line) {
+    return read_materials(file("blanks.obj", line + "\nusemtl m\nf 1 1 1\n")).at(0)->opacity;
+  };
+  EXPECT_EQ(opacity("mtllib two  words.mtl # one"), 0.5);
+  file("two", "newmtl other\n");
+  EXPECT_EQ(opacity("mtllib two words.mtl"), 0.25);
+  EXPECT_EQ(opacity("mtllib words.mtl"), 0.25);
+}
+
 TEST_F(Materials, that_are_wrong_are_told_at_their_place) {
   const std::string obj = "mtllib a.mtl\nusemtl m\nf 1 2 3\n";
   const auto ends = [](const std::string& text, const std::string& place) {
@@ -73,7 +85,7 @@ TEST_F(Materials, that_are_wrong_are_told_at_their_place) {
   EXPECT_TRUE(ends(error(obj, "newmtl m\nKd 1 2 1e999\n"), "a.mtl:2:8: "));
   EXPECT_TRUE(ends(error(obj, "Kd 1 1 1\n"), "a.mtl:1:1: \"Kd\" before any newmtl"));
   EXPECT_TRUE(ends(error(obj, "newmtl\n"), "a.mtl:1:1: a material without a name"));
-  EXPECT_TRUE(ends(error("mtllib b.mtl\n", ""), "b.mtl: "));
+  EXPECT_TRUE(ends(error("v 0 0 0\nmtllib a.mtl  b.mtl\n", ""), "a.obj:2:15: no file \"b.mtl\" beside this one"));
 }
 
 }  // namespace

@@ -135,6 +135,34 @@ TEST(Quake_map, places_are_the_origins_of_what_has_no_brushes) {
   EXPECT_THROW(read_map_places({"scene", "{\n\"origin\" \"1 2\"\n}\n"}), Input_error);
 }
 
+std::size_t faces_in(const std::string& text) { return read_scene(text, map, "scene").face_count(); }
+
+TEST(Quake_map, keys_and_sides_are_alone_on_their_lines_or_an_error) {
+  const std::string cube = box("8", "8", "8");
+  // A seventh side behind the sixth would be lost, and with it half of the box.
+  const std::string half = side("4 0 0", "4 1 0", "4 0 1");
+  EXPECT_EQ(faces_in(entity("worldspawn", {cube + half})), 6u);
+  std::string joined = cube + half;
+  joined[cube.size() - 1] = ' ';
+  expect_error_at(9, 46, "unexpected \"(\"; begin a line of its own with it", entity("worldspawn", {joined}), map);
+  std::string closed = cube;
+  closed.insert(cube.size() - 1, " }");
+  expect_error_at(9, 46, "unexpected \"}\"", entity("worldspawn", {closed}), map);
+  EXPECT_EQ(faces_in(entity("worldspawn", {cube.substr(0, cube.size() - 1) + " // ( 4 0 0 )\n"})), 6u);
+  const auto keys = [&](const std::string& text) { return "{\n" + text + "\n{\n" + cube + "}\n}\n"; };
+  EXPECT_EQ(faces_in(keys("\"message\" \"two // words\" // and more\n\"wad\" \"\"\n\"classname\" \"worldspawn\"")), 6u);
+  EXPECT_EQ(faces_in(keys("\"my key\" \"a\"\n\"classname\" \"worldspawn\"")), 6u);
+  expect_error_at(2, 18, "begin a line of its own with it", keys("\"mapversion\" \"1\" \"classname\" \"worldspawn\""),
+                  map);
+  for (const char* text : {"\"classname\"\n\"worldspawn\"", "\"classname\"\"worldspawn\"", "\"classname\" worldspawn",
+                           "\"classname\" \"worldspawn", "\"classname \"worldspawn\"", "\"classname\" \"a\"b\""}) {
+    const std::optional<Input_error> error = error_of(keys(text), map);
+    ASSERT_TRUE(error) << text;
+    EXPECT_NE(std::string(error->what()).find("no \"KEY\" \"VALUE\" here"), std::string::npos) << error->what();
+  }
+  EXPECT_THROW(read_map_places({"scene", "{\n\"origin\" \"1 2 3 4\"\n}\n"}), Input_error);
+}
+
 TEST(Quake_map, errors_name_the_line) {
   const std::string cube = box("1", "1", "1");
   const std::string open = cube.substr(0, cube.rfind('\n', cube.size() - 2) + 1);

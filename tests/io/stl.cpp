@@ -4,6 +4,8 @@
 
 #include <sightline/io/binary.h>
 
+#include <ctime>
+
 namespace sightline::test {
 namespace {
 
@@ -51,6 +53,26 @@ TEST(Stl, text_may_hold_several_solids_and_capitals) {
                              "endloop\nendfacet\nendsolid\n",
                          stl))
         << wrong;
+}
+
+TEST(Stl, text_with_a_facet_on_the_line_of_a_name_is_an_error) {
+  const std::string facet =
+      "facet normal 0 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\nendsolid\n";
+  expect_error_at(1, 9, "a facet on the line of a name; break the line", "solid s " + facet, Format::stl);
+  EXPECT_EQ(read_scene("solid a facet of many\n" + facet, Format::stl, "scene").face_count(), 1u);
+}
+
+TEST(Stl, points_whose_hashes_were_made_to_agree_take_no_longer) {
+  std::string text = "solid\n";
+  for (int k = 1; k <= 6000; ++k) {
+    const std::string x = to_string(Integer(Integer(k) << 64));
+    text += "facet normal 0 0 0 outer loop vertex " + x + " 0 0 vertex " + x + " 0 1 vertex " + x +
+            " 1 0 endloop endfacet\n";
+  }
+  text += "endsolid\n";
+  const std::clock_t begin = std::clock();
+  EXPECT_EQ(read_scene(text, Format::stl, "scene").point_count(), 18000u);
+  EXPECT_LT(std::clock() - begin, 2 * CLOCKS_PER_SEC);  // 0.1, and 5 where all multiples of 2^64 have one hash
 }
 
 TEST(Stl, text_that_is_cut_off_is_an_error_at_its_end) {

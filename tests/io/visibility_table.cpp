@@ -175,6 +175,17 @@ TEST(Visibility_table, that_announces_more_than_it_holds_is_refused) {
   std::string bytes = without_sum(table_bytes({"", {}, {}, {}}));
   for (std::size_t k = 0; k < 4; ++k) bytes[bytes.size() - 8 + k] = '\xFF';  // four thousand million cells
   EXPECT_THROW(read_table({"t", with_sum(bytes)}), Input_error);
+  // Without faces a row takes no byte: a million bytes are no eight million rows.
+  const auto of_cells_alone = [](std::uint32_t cells) {
+    std::string table = "sightline pvs 1\n";
+    store(table, std::uint32_t{1});
+    table += "x";
+    store(table, cells);
+    store(table, std::uint32_t{0});
+    return table + std::string(cells / 8, '\xFF');
+  };
+  EXPECT_EQ(read_table({"t", of_cells_alone(1 << 16)}).rows.size(), std::size_t{1} << 16);
+  EXPECT_THROW(read_table({"t", of_cells_alone(1 << 23)}), Input_error);
 }
 
 /// The part of a table with the faces of a shard.

@@ -10,6 +10,7 @@
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/solid_oracle.h>

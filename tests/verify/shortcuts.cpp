@@ -22,6 +22,7 @@ using order_check::Planes_between;
 using order_check::Rounded_cone;
 using test_scenes::least;
 using test_scenes::sample;
+using verify_test::Scene;
 
 const Exact_point at_origin = at(0, 0, 0);
 
