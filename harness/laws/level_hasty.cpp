@@ -4,11 +4,13 @@
 #include <sightline/algorithms/levels/cells.h>
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/harness/laws/level_checks.h>
+#include <sightline/harness/laws/level_pairs.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -78,6 +80,8 @@ Outcome run(const Posed_scene& posed, const Answer&, Random& random) {
   Rows visible, undecided;
   for (std::uint32_t k = 0; k < parts; ++k) {
     const Pvs part = Pvs_search(level, haste).ask(k, parts);
+    if (haste.event_edges == 0 && part.counters.by_events > 0)
+      return Outcome::failed("events decide faces though none is to be asked");
     add(visible, part.visible);
     add(undecided, part.undecided);
   }
@@ -99,7 +103,20 @@ Outcome run(const Posed_scene& posed, const Answer&, Random& random) {
   const Cell_pvs cells = mutually_visible_cells(level, leisure);
   flaw = flaw_of(visible, undecided, cells.visible, cells.undecided, "cell");
   if (flaw.empty() && is_thorough) flaw = gap_in(undecided, "cell");
-  return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
+  if (!flaw.empty()) return Outcome::failed(flaw);
+
+  // 3. Sightlines of some pairs, of events too.
+  if (patience != forever) return {};
+  for (int k = 0; k < 3; ++k) {
+    const Cell_id a = static_cast<Cell_id>(random.below(visible.size()));
+    if (visible[a].empty()) continue;
+    const Cell_id b = visible[a][random.below(visible[a].size())];
+    const std::optional<std::array<Exact_point, 2>> line = together.sightline(a, b);
+    if (line && !levels_subject::is_free(posed.soup, level, a, b, *line))
+      return Outcome::failed("cells " + std::to_string(a) + " and " + std::to_string(b) +
+                             ": a sightline is not from the one to the other, or meets a face");
+  }
+  return {};
 }
 
 }  // namespace hasty_levels

@@ -88,7 +88,6 @@ std::optional<bool> see_each_other(const Posed_scene& posed, const Level_cells& 
   return sees;
 }
 
-/// Whether a segment goes from inside the one cell to inside the other, and meets no face on its way.
 bool is_free(const Polygon_soup& soup, const Level_cells& level, Cell_id a, Cell_id b,
              const std::array<Exact_point, 2>& line) {
   if (level.at(line[0]) != a || level.at(line[1]) != b || line[0] == line[1]) return false;

@@ -110,7 +110,7 @@ Outcome by_kernel(const Posed_scene& posed, const Answer& answer, const std::str
 }
 
 /// In numbers that round, whose answers are wrong where scenes are degenerate: the tree has all fragments but those
-/// that rounding left without an inside, each drawn once; and where whole numbers are so small that no sign is rounded,
+/// that rounding left without an inside, each drawn once; and where halves are so small that no sign is rounded,
 /// and nothing is cut, sides are as they are.
 template <class Kernel>
 Outcome by_rounding_kernel(const Posed_scene& posed, const Answer& answer, const std::string& name) {
@@ -133,8 +133,10 @@ Outcome by_rounding_kernel(const Posed_scene& posed, const Answer& answer, const
   const bool is_small = scene.bits() <= most_bits &&
                         std::all_of(posed.eye.begin(), posed.eye.end(),
                                     [](const Rational& x) { return x.get_den() == 1 && abs(x) < (1 << most_bits); });
-  const bool is_whole = is_small && scene.scale_bits() <= 1;
-  return is_whole && counters.splits == 0 ? compared(answer, other, "exact", name) : Outcome{};
+  bool has_halves = true;  // at most: thirds are rounded
+  for (Point_id p = 0; p < posed.soup.point_count(); ++p)
+    for (const Rational& x : posed.soup.point(p)) has_halves &= x.get_den() <= 2;
+  return is_small && has_halves && counters.splits == 0 ? compared(answer, other, "exact", name) : Outcome{};
 }
 Outcome in_rounding_kernels(const Posed_scene& posed, const Answer& answer, Random& random) {
   switch (random.below(3)) {

@@ -134,6 +134,11 @@ std::string flaw_of_places(const Occluders& occluders, const Weak_source& source
     if (partition.cell_at(Rational(x) / 2, Rational(y) / 2) != Light_partition::none)
       return "a point on the chart's border is found in a cell";
   generate::Random places(partition.cells.size());
+  for (std::size_t k = 0; k < std::min(most_cells, partition.borders.size()); ++k)
+    for (const Bounded& end : partition.borders[places.below(partition.borders.size())].x)
+      if (end.low == end.high && partition.cell_at(exact(end.low), Rational(static_cast<long>(1 + places.below(999)),
+                                                                            1000l)) != Light_partition::none)
+        return "a point straight above or below an end of a border is found in a cell";
   for (int k = 0; k < 3; ++k) {
     const auto number = [&](std::int64_t low, std::int64_t high) {
       return Rational(static_cast<long>(places.between(low, high)), 1000l);

@@ -6,10 +6,14 @@
 #include "written_bsp.h"
 #include "written_gltf.h"
 
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/io/format.h>
 #include <sightline/io/materials.h>
 #include <sightline/io/number_lines.h>
 #include <sightline/io/quake_map.h>
+#include <sightline/io/read.h>
+#include <sightline/io/visibility_table.h>
+#include <sightline/io/write.h>
 #include <sightline/kernel/vectors.h>
 
 #include <unistd.h>
@@ -17,7 +21,9 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <set>
+#include <sstream>
 #include <string_view>
 
 namespace fuzz {
@@ -119,6 +125,43 @@ inline std::array<Exact_point, 3> points_of(const Half_space& h, generate::Rando
   }
 }
 
+/// Two lines of a file that are made one, but for comments, are the same or an error: nothing is lost in silence.
+inline void join_lines(const Polygon_soup& soup, std::string text, Format format, generate::Random& random) {
+  const std::size_t end = text.find('\n', random.below(text.size()));
+  if (end == std::string::npos) return;
+  const std::size_t begin = end == 0 ? 0 : text.rfind('\n', end - 1) + 1;
+  const std::string_view line(text.data() + begin, end - begin);
+  if (line.find("//") != std::string_view::npos || line.starts_with("comment") || line.starts_with('#')) return;
+  text[end] = ' ';
+  std::optional<Polygon_soup> joined;
+  try {
+    joined = read_scene(text, format, "joined");
+  } catch (const Input_error&) {
+    return;
+  }
+  require(fingerprint(*joined) == fingerprint(soup), "what is on a line of another is read or refused");
+}
+
+/// The same of faces in each format of text.
+inline void try_joined_lines(generate::Random& random) {
+  generate::Faces faces(1 + random.below(4));
+  for (generate::Points& face : faces) {
+    face.resize(3 + random.below(2));
+    for (Exact_point& p : face)
+      for (Rational& x : p) x = static_cast<long>(random.between(-9, 9));
+  }
+  const Polygon_soup soup = generate::soup_of(faces);
+  static constexpr std::array formats{Format::obj, Format::off, Format::qoff, Format::ply, Format::stl};
+  const Format format = formats[random.below(formats.size())];
+  std::ostringstream out;
+  try {
+    write_scene(soup, out, format);
+  } catch (const Not_representable&) {  // of triangles alone
+    return;
+  }
+  join_lines(read_scene(out.str(), format, "written"), out.str(), format, random);
+}
+
 /// A level of few brushes has the faces of those that are of the world and drawn, counterclockwise from outside.
 inline void try_brushes(generate::Random& random) {
   static constexpr std::array names{"worldspawn",       "func_group", "func_detail",
@@ -159,6 +202,7 @@ inline void try_brushes(generate::Random& random) {
   }
   const Polygon_soup soup = sightline::read_map({"written", text});
   require(soup.face_count() == expected.size(), "a level has a face for each side of a brush");
+  join_lines(soup, text, Format::map, random);
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     std::vector<Exact_point> loop;
     for (const Point_id p : soup.loop(f)) loop.push_back(soup.point(p));
@@ -262,9 +306,10 @@ inline void try_endings(generate::Random& random) {
 
 inline void written(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(20);
+  const std::size_t kind = from.below(22);
   generate::Random random(from.word());
-  if (kind > 15) try_forms(random);
+  if (kind > 19) try_joined_lines(random);
+  else if (kind > 15) try_forms(random);
   else if (kind < 5) try_gltf(random);
   else if (kind < 9) try_level(random);
   else if (kind < 13) try_brushes(random);
