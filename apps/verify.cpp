@@ -6,6 +6,7 @@
 #include <sightline/algorithms/verify/level_cell.h>
 #include <sightline/algorithms/verify/level_fill.h>
 #include <sightline/algorithms/verify/solids_json.h>
+#include <sightline/algorithms/verify/written_out.h>
 #include <sightline/io/file.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
@@ -66,7 +67,15 @@ static std::uint64_t whole_number_in(const nlohmann::json& value, std::uint64_t 
   return value.get<std::uint64_t>();
 }
 
-static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::path& folder, bool has_certificate) {
+static const nlohmann::json& list_in(const nlohmann::json& json, const char* key) {
+  const nlohmann::json& list = json.at(key);
+  if (!list.is_array()) throw std::invalid_argument(fmt::format("\"{}\" is no list", key));
+  return list;
+}
+
+/// Of an index of so many bytes, in which so much is written out.
+static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::path& folder, bool has_certificate,
+                             std::size_t bytes, Written_out& written_out) {
   Cell_entry entry;
   entry.cell = whole_number_in(json.at("cell"), std::numeric_limits<std::uint64_t>::max(), "\"cell\"");
   if (has_certificate) {
@@ -74,21 +83,24 @@ static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::
     if (name.empty() || name != name.filename() || name == "." || name == "..")
       throw std::invalid_argument("its certificate is no file of this folder");
     entry.file = (folder / name).string();
-    for (const nlohmann::json& face : json.at("within"))
+    for (const nlohmann::json& face : list_in(json, "within"))
       entry.statement.within.push_back(
           static_cast<Face_id>(whole_number_in(face, std::numeric_limits<Face_id>::max(), "a face of \"within\"")));
   }
   std::vector<Exact_point> corners;
-  for (const nlohmann::json& corner : json.at("corners")) {
+  for (const nlohmann::json& corner : list_in(json, "corners")) {
     if (!corner.is_array() || corner.size() != 3) throw std::invalid_argument("a corner has not three coordinates");
     Exact_point& p = corners.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) p[k] = rational_from_string(corner[k].get<std::string>());
   }
-  for (const nlohmann::json& wall : json.at("walls")) {
+  for (const nlohmann::json& wall : list_in(json, "walls")) {
+    if (!wall.is_array()) throw std::invalid_argument("a wall is no list of corners");
     std::vector<Exact_point>& polygon = entry.statement.walls.emplace_back();
     for (const nlohmann::json& place : wall) {
       if (!place.is_number_unsigned() || place.get<std::uint64_t>() >= corners.size())
         throw std::invalid_argument("a wall names a corner that there is not");
+      if (!written_out.add(corners[place.get<std::size_t>()], bytes))
+        throw std::invalid_argument(std::string("corners are ") + Written_out::what_is_too_much);
       polygon.push_back(corners[place.get<std::size_t>()]);
     }
   }
@@ -106,7 +118,9 @@ static Cell_index cells_in(const std::filesystem::path& folder) {
   if (!std::filesystem::exists(file))
     throw Input_error::of_file(
         folder.string(), "is a directory; name a file in it, or a folder that `sightline pvs --certificates` wrote");
-  const nlohmann::json json = parse_json(read_bytes(file), file);
+  const std::string bytes = read_bytes(file);
+  const nlohmann::json json = parse_json(bytes, file);
+  Written_out written_out;
   const auto refuse = [&](const std::string& what) {
     throw Input_error::of_file(file, what + "; write the folder again with `sightline pvs --certificates FOLDER`");
   };
@@ -116,7 +130,7 @@ static Cell_index cells_in(const std::filesystem::path& folder) {
   const auto read = [&](const char* key, std::vector<Cell_entry>& cells) {
     if (!json.contains(key) || !json[key].is_array()) refuse(fmt::format("has no list \"{}\"", key));
     for (std::size_t i = 0; i < json[key].size(); ++i) try {
-        cells.push_back(cell_entry(json[key][i], folder, &cells == &index.cells));
+        cells.push_back(cell_entry(json[key][i], folder, &cells == &index.cells, bytes.size(), written_out));
       } catch (const nlohmann::json::exception&) {
         refuse(fmt::format("entry {} of \"{}\" has not the parts of a cell", i, key));
       } catch (const std::invalid_argument& error) {

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace sightline {
@@ -115,16 +116,13 @@ class View {
   std::size_t fragment_;
   Homogeneous plane_;  // the eye in front
   Moving_cone whole_;
-  std::vector<std::optional<Blocker>> blockers_;
+  std::unordered_map<std::size_t, Blocker> blockers_;  // those that were asked for
   Range range_;
   std::string what_;
 };
 
 View::View(const Setting& setting, std::size_t fragment, bool from_behind)
-    : setting_(setting),
-      fragment_(fragment),
-      plane_(setting.fragments[fragment].plane),
-      blockers_(setting.fragments.size()) {
+    : setting_(setting), fragment_(fragment), plane_(setting.fragments[fragment].plane) {
   const Corners& corners = setting.fragments[fragment].corners;
   for (std::size_t i = 0; i < corners.size(); ++i)
     whole_.push_back(setting.through(corners[i], corners[(i + 1) % corners.size()]));
@@ -154,18 +152,18 @@ Moving_plane View::plane_of_side(const Side& side) const {
 }
 
 const View::Blocker& View::blocker(std::size_t place) {
-  std::optional<Blocker>& known = blockers_[place];
-  if (known) return *known;
-  known.emplace();
+  const auto [found, is_new] = blockers_.try_emplace(place);
+  Blocker& known = found->second;
+  if (!is_new) return known;
   const Outline& outline = setting_.fragments[place];
-  known->eye_side = setting_.eye_side(outline.plane);
-  known->in_front = cut(outline.corners, plane_);
-  known->is_none = known->in_front.empty() || is_zero(known->eye_side) || is_aside(outline, *known);
-  if (known->is_none) return *known;
+  known.eye_side = setting_.eye_side(outline.plane);
+  known.in_front = cut(outline.corners, plane_);
+  known.is_none = known.in_front.empty() || is_zero(known.eye_side) || is_aside(outline, known);
+  if (known.is_none) return known;
   for (std::size_t i = 0; i < outline.corners.size(); ++i)
-    known->edges.push_back(setting_.through(outline.corners[i], outline.corners[(i + 1) % outline.corners.size()]));
-  known->meet = plane_of_side({Side::Kind::meet, place, 0, 1});
-  return *known;
+    known.edges.push_back(setting_.through(outline.corners[i], outline.corners[(i + 1) % outline.corners.size()]));
+  known.meet = plane_of_side({Side::Kind::meet, place, 0, 1});
+  return known;
 }
 
 bool View::is_aside(const Outline& outline, const Blocker& blocker) const {

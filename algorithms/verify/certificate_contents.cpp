@@ -133,6 +133,8 @@ Weak_certificate::Node node(const Json& value, const At& at) {
 /// {"root": t}, or {"quadratic": [a, b, c], "low", "high"}.
 Path_moment moment(const Json& value, const At& at) {
   if (value.is_object() && value.contains("root")) {
+    for (const char* other : {"quadratic", "low", "high"})
+      if (value.contains(other)) fail(at, "expected a \"root\" or a \"quadratic\", not both");
     const Rational root = exact_number(value["root"], at + ".root");
     return {{}, root, root};
   }

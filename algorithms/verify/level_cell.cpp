@@ -88,21 +88,35 @@ void check_sources(const std::vector<Outline>& walls, const std::vector<Outline>
   }
 }
 
+/// Whether all of a wall is on an outline in its plane.
+bool covers(const Outline& outline, const Outline& wall) {
+  const std::vector<Homogeneous> edges = edge_planes(outline);
+  return std::all_of(wall.corners.begin(), wall.corners.end(), [&](const Homogeneous& p) {
+    return std::all_of(edges.begin(), edges.end(), [&](const Homogeneous& edge) { return side(edge, p) >= 0; });
+  });
+}
+
 /// (4), (5) Rejects unless sources and fragments cover all walls, but for those beyond which there is nothing to see.
 /// Returns the faces that look into the cell; adds to `open_walls` those that are not covered.
 std::set<Face_id> check_walls(const std::vector<Outline>& walls, const std::vector<Outline>& sources,
                               const std::vector<Order_fragment>& fragments, const std::vector<Outline>& outlines,
-                              std::vector<std::size_t>& open_walls) {
+                              std::vector<std::size_t>& open_walls, const std::function<void()>& ask) {
   std::set<Face_id> looking_in;
   for (std::size_t w = 0; w < walls.size(); ++w) {
     const std::vector<Homogeneous> edges = edge_planes(walls[w]);
     std::vector<Corners> open{walls[w].corners};
     for (const Outline& source : sources)
       if (source.in_plane(walls[w].plane)) take_away(open, source);
+    std::vector<const Outline*> upon;
     for (std::size_t i = 0; i < outlines.size(); ++i) {
       if (!outlines[i].in_plane(walls[w].plane) || within(outlines[i].corners, edges).empty()) continue;
       if (!alike(outlines[i].plane, walls[w].plane)) looking_in.insert(fragments[i].face);
-      take_away(open, outlines[i]);
+      if (covers(outlines[i], walls[w])) open.clear();
+      upon.push_back(&outlines[i]);
+    }
+    for (std::size_t k = 0; k < upon.size() && !open.empty(); ++k) {
+      ask();
+      take_away(open, *upon[k]);
     }
     if (open.empty()) continue;
     const bool ends_scene = std::none_of(outlines.begin(), outlines.end(), [&](const Outline& outline) {
@@ -122,6 +136,17 @@ std::set<Face_id> check_walls(const std::vector<Outline>& walls, const std::vect
   return looking_in;
 }
 
+/// Rejects what is said of sightlines where there is no source; that faces are undecided may be said anywhere.
+void check_without_sources(const Polygon_soup& soup, const Weak_certificate& certificate) {
+  if (!certificate.visible.empty() || !certificate.hidden.empty())
+    reject("it has no source, and says something of what is seen from one");
+  std::set<Face_id> undecided;
+  for (const Face_id f : certificate.undecided) {
+    if (f >= soup.face_count()) reject(name("face", f) + ", which is said to be undecided, is not there");
+    if (!undecided.insert(f).second) reject(name("face", f) + " is undecided twice");
+  }
+}
+
 std::string check_cell(const Polygon_soup& soup, const Cell_statement& cell, const Weak_certificate& certificate,
                        const weak_check::Known_scene& scene, const Verify_options& options,
                        std::vector<std::size_t>& open_walls) {
@@ -130,6 +155,7 @@ std::string check_cell(const Polygon_soup& soup, const Cell_statement& cell, con
 
   // 0. The certificate is right.
   if (!certificate.sources.empty()) weak_check::check(soup, certificate, scene, options);
+  else check_without_sources(soup, certificate);
   const std::vector<Outline>& fragments = scene.outlines();
   std::vector<Outline> sources;
   for (const Polygon& source : certificate.sources) sources.emplace_back(source);
@@ -137,7 +163,9 @@ std::string check_cell(const Polygon_soup& soup, const Cell_statement& cell, con
   // 2. to 4. Nothing is inside, and its portals are the sources.
   check_inside(walls, certificate.fragments, fragments);
   check_sources(walls, sources, certificate.fragments, fragments);
-  const std::set<Face_id> looking_in = check_walls(walls, sources, certificate.fragments, fragments, open_walls);
+  const std::set<Face_id> looking_in = check_walls(walls, sources, certificate.fragments, fragments, open_walls, [&] {
+    if (options.progress) options.progress(0, 1);
+  });
 
   // 5. What looks into it is what is said to.
   const std::set<Face_id> said(cell.within.begin(), cell.within.end());

@@ -29,7 +29,8 @@ struct Cell_statement {
 /// cover, unless no fragment is beyond its plane; (5) `within` are the faces that cover some of a wall, with their
 /// front to the inside. Degenerate: a side of the cell may be many walls, with corners of some in edges of others;
 /// touching is not passing through, nor covering. Pre: none; rejects whatever is wrong. Post: `why` is one line. Cost:
-/// verify_weak(), and walls times fragments. Exact: yes, without filters. Proof: P-88b
+/// verify_weak(), and walls times fragments; of a wall that no fragment covers alone, those upon it times the parts
+/// that they leave of it. Exact: yes, without filters. Proof: P-88b
 Verdict verify_level_cell(const Polygon_soup& soup, const Cell_statement& cell, const Weak_certificate& certificate,
                           const Verify_options& options = {});
 

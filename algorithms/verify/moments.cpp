@@ -32,6 +32,8 @@ Moments::Moments(const std::vector<Path_moment>& moments) : moments_(moments) {
     // Of a quadratic: signs at the ends that differ, so one root between them, and not two.
     if (low != high && (low > high || sgn(f[2]) == 0 || sgn(value(f, low)) * sgn(value(f, high)) >= 0))
       refuse(" is not between two fractions at which a quadratic has opposite signs");
+    if (low == high && (sgn(f[0]) != 0 || sgn(f[1]) != 0 || sgn(f[2]) != 0))
+      refuse(" is a fraction, and has a quadratic, too");
     if (k > 0 && moments[k - 1].high >= low) refuse(" is not told to be after the one before it");
   }
   const auto is = [](const Path_moment& moment, long t) { return moment.low == t && moment.high == t; };

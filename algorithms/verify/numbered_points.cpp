@@ -30,11 +30,12 @@ std::size_t mixed_digits(std::size_t hash, mpz_srcptr n) {
     for (std::uint64_t& word : words) word = std::uint64_t{random()} << 32 | random();
     return words;
   }();
-  for (std::size_t k = 0; k < mpz_size(n); ++k) {
-    const unsigned __int128 product =
-        static_cast<unsigned __int128>(hash ^ secret[0]) * (mpz_getlimbn(n, static_cast<mp_size_t>(k)) ^ secret[1]);
+  const auto mix = [&](std::uint64_t limb) {
+    const unsigned __int128 product = static_cast<unsigned __int128>(hash ^ secret[0]) * (limb ^ secret[1]);
     hash = static_cast<std::size_t>(product) ^ static_cast<std::size_t>(product >> 64);
-  }
+  };
+  mix(mpz_size(n));  // or the same limbs, divided otherwise among several numbers, would have one hash
+  for (std::size_t k = 0; k < mpz_size(n); ++k) mix(mpz_getlimbn(n, static_cast<mp_size_t>(k)));
   return hash;
 }
 

@@ -149,8 +149,10 @@ Solid_certificate read_solid_certificate(const std::string& text) {
       Solid_certificate::Fragment& fragment = certificate.fragments.emplace_back();
       for (const json& part : entry.at("parts")) {
         if (!part.is_array() || part.size() != 4) throw std::invalid_argument("a part is not of four numbers");
-        fragment.parts.push_back({whole_number_of(part[0]), whole_number_of(part[1]), whole_number_of(part[2]),
-                                  whole_number_of(part[3]) != 0});
+        const std::uint32_t turned = whole_number_of(part[3]);
+        if (turned > 1) throw std::invalid_argument("a part is turned by neither 0 nor 1");
+        fragment.parts.push_back(
+            {whole_number_of(part[0]), whole_number_of(part[1]), whole_number_of(part[2]), turned == 1});
       }
       fragment.vertices = loop(entry.at("vertices"));
       for (const json& number : entry.at("front")) {

@@ -168,7 +168,8 @@ class Trees {
   const Weak_certificate& certificate_;
   const std::vector<Outline>&fragments_, &sources_;
   Lines lines_;                                     // those of the certificate, then those of blockers
-  std::vector<Lines::Named> named_;                 // the certificate's
+  std::vector<Lines::Named> named_;                 // the certificate's, each once
+  std::vector<std::size_t> place_;                  // by the certificate's number, among those
   std::vector<std::vector<Lines::Named>> edges_;    // of fragments that block, when they first do
   std::vector<int> path_;                           // signs of numbered lines
   std::vector<std::pair<std::size_t, int>> trail_;  // lines decided, and what was there before
@@ -179,15 +180,14 @@ class Trees {
 Trees::Trees(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
              const std::vector<Outline>& sources)
     : certificate_(certificate), fragments_(fragments), sources_(sources), edges_(fragments.size()) {
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // by edge, the first of its lines
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> known;  // by edge, the place of its line
   for (std::size_t k = 0; k < certificate.lines.size(); ++k) {
     const auto& [fragment, corner] = certificate.lines[k];
     if (fragment >= fragments.size() || corner >= certificate.fragments[fragment].vertices.size())
       reject(name("line", k) + " names an edge that there is not");
-    if (const auto [at, is_new] = known.try_emplace({fragment, corner}, k); !is_new) {
-      named_.push_back(named_[at->second]);
-      continue;
-    }
+    const auto [at, is_new] = known.try_emplace({fragment, corner}, named_.size());
+    place_.push_back(at->second);
+    if (!is_new) continue;
     const Polygon& polygon = certificate.fragments[fragment].vertices;
     named_.push_back(lines_.through(homogeneous(polygon[corner]), homogeneous(polygon[(corner + 1) % polygon.size()])));
   }
@@ -230,8 +230,8 @@ void Trees::check_for(std::size_t fragment, const std::vector<Node>& proof) {
     if (!has_inside && (node.kind != Node::Kind::empty || !node.terms.empty()))
       refuse("is below a cut that leaves nothing inside, but is no empty leaf without terms");
     if (node.kind == Node::Kind::line) {
-      if (node.index >= named_.size()) refuse("names line " + std::to_string(node.index) + ", which there is not");
-      const auto& [number, scale] = named_[node.index];
+      if (node.index >= place_.size()) refuse("names line " + std::to_string(node.index) + ", which there is not");
+      const auto& [number, scale] = named_[place_[node.index]];
       waiting.push_back({cell, trail_.size(), number, -sgn(scale)});
       decide(number, sgn(scale));
       continue;
@@ -379,8 +379,8 @@ Trees::Summand Trees::summand_of(const Term& term, const Cell& cell) const {
     if (position(scaled.values, corners) <= 0) refuse("has a form that is negative somewhere, or zero everywhere");
     return scaled;
   };
-  if (term.line >= named_.size()) refuse("has a term of line " + std::to_string(term.line) + ", which there is not");
-  const auto& [line, scale] = named_[term.line];
+  if (term.line >= place_.size()) refuse("has a term of line " + std::to_string(term.line) + ", which there is not");
+  const auto& [line, scale] = named_[place_[term.line]];
   if (decided(line) == 0) refuse("has a term of line " + std::to_string(term.line) + ", which is not decided above it");
   if (!canonical(term.factor) || sgn(term.factor) <= 0)
     refuse("has a factor that is not positive, or not in canonical numbers");

@@ -84,7 +84,7 @@ Exit ask(const Trial& trial, double budget, Json& rows) {
     const Json& r = rows.back();
     if (!claims_to_be_exact(r)) continue;
     const std::string& status = r["status"].get_ref<const std::string&>();
-    if (status == "timed out") undecided = true;
+    if (status == "timed out" || status == "out of memory") undecided = true;
     else if (status.starts_with("left out")) continue;
     else if (status != "done" || !trial.right(r)) disagree = true;
   }

@@ -125,6 +125,10 @@ struct See_trial : Trial {
                                }});
     for (const std::uint32_t size : arguments.sizes)
       for (const int bits : arguments.bits) {
+        // 0 is a plane by itself.
+        for (const double plane : {arguments.near, arguments.far})
+          if (plane != 0 && (static_cast<float>(plane) == 0 || std::isinf(static_cast<float>(plane))))
+            throw Usage_error(fmt::format("--near and --far are floats, and {} is none", plane));
         const Depth_buffer_options pixels{size, bits, static_cast<float>(arguments.near),
                                           static_cast<float>(arguments.far)};
         contestants.push_back({{{"kernel", "float"}, {"method", "depth buffer"}, {"size", size}, {"bits", bits}},

@@ -3,7 +3,11 @@
 #include "picture.h"
 #include "view.h"
 
+#include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/reduce.h>
+
+#include <set>
+#include <stdexcept>
 
 namespace sightline::app {
 
@@ -29,6 +33,43 @@ bool broken_alike(const Judged& judged, const Judged& broken) {
          (judged.grade.wrong_hidden.empty() || !broken.grade.wrong_hidden.empty());
 }
 
+/// What is drawn of a case.
+struct Drawn_case {
+  Polygon_soup soup;
+  Query query;
+  Grade grade;
+  Explanation why;
+};
+
+/// The same, of coordinates of 1 at most.
+Drawn_case made_small(Drawn_case drawn) {
+  Rational largest = 0;
+  for (Point_id p = 0; p < drawn.soup.point_count(); ++p)
+    for (const Rational& x : drawn.soup.point(p)) largest = std::max(largest, Rational(abs(x)));
+  if (largest == 0) return drawn;
+  const auto shrink = [&](Exact_point& p) {
+    for (Rational& x : p) x /= largest;
+  };
+  drawn.soup = generate::scaled(drawn.soup, Rational(1 / largest));
+  shrink(drawn.query.eye);
+  for (Exact_point& p : drawn.query.source) shrink(p);
+  for (auto& [origin, direction] : drawn.query.rays) {
+    shrink(origin);
+    shrink(direction);
+  }
+  for (Wrong_point& wrong : drawn.grade.wrong_points) {
+    shrink(wrong.at);
+    shrink(wrong.on);
+  }
+  if (drawn.why.refutation) {
+    Refutation& line = *drawn.why.refutation;
+    shrink(line.from);
+    shrink(line.to);
+    if (line.at) shrink(*line.at);
+  }
+  return drawn;
+}
+
 }  // namespace
 
 Json explained(const Judge_arguments& arguments, const Judge_case& asked, const Judged& broken) {
@@ -44,8 +85,16 @@ Json explained(const Judge_arguments& arguments, const Judge_case& asked, const 
                     {"words", line.words}};
   }
   const Wrong_words words = words_of_wrong(asked.query.question);
-  json["picture"] = picture_of(asked.soup, asked.query, broken.grade, why, words);
-  json["view"] = view_of("judge", arguments.query, asked.soup, asked.query, broken.grade, why, words);
+  const auto draw = [&](const Drawn_case& drawn) {
+    json["picture"] = picture_of(drawn.soup, drawn.query, drawn.grade, drawn.why, words);
+    json["view"] = view_of("judge", arguments.query, drawn.soup, drawn.query, drawn.grade, drawn.why, words);
+  };
+  const Drawn_case drawn{asked.soup, asked.query, broken.grade, why};
+  try {
+    draw(drawn);
+  } catch (const std::domain_error&) {  // beyond doubles
+    draw(made_small(drawn));
+  }
   return json;
 }
 

@@ -22,9 +22,9 @@ double percent(std::size_t part, std::size_t whole) {
   return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, whole));
 }
 
-void row_of_cells(const Cell_pvs_counters& c, std::size_t visible, std::size_t undecided) {
-  row("", fmt::format("{} of two cells: {} see each other ({:.3g}%), {} undecided", c.pairs, visible,
-                      percent(visible, c.pairs), undecided));
+void row_of_cells(const Cell_pvs_counters& c, std::size_t pairs, std::size_t visible, std::size_t undecided) {
+  row("", fmt::format("{} of two cells: {} see each other ({:.3g}%), {} undecided", pairs, visible,
+                      percent(visible, pairs), undecided));
   row("",
       fmt::format("{} neighbours, {} along random lines, {} along a sightline made longer; {} searches, {} of which "
                   "found hidden, {} left to events; {} pairs were not reached",
@@ -84,7 +84,7 @@ Exit run_into_level(const Pvs_arguments& arguments) {
     return exit;
   scene_rows(level.scene());
   row("cells", fmt::format("{} of {} are asked about", c.cells, level.counters().cells));
-  row_of_cells(c, c.visible, c.undecided);
+  row_of_cells(c, c.pairs, c.visible, c.undecided);
   row("leaves", fmt::format("{} have rows: of {} pairs, each with itself too, {} are visible", rows.size(),
                             rows.size() * rows.size(), visible));
   row("seconds", fmt::format("{:.3f} for cells, {:.3f} for what they see", cells_seconds, seconds));
@@ -116,17 +116,24 @@ void check_shown(const Pvs_arguments& arguments, const Level_cells& level) {
 
 /// What is told of a table.
 struct Table_facts {
-  std::size_t visible, undecided;              // pairs of a cell and a face
-  std::size_t cells_visible, cells_undecided;  // pairs of two cells
-  std::optional<Group_names> names;            // of what cells are within, where there is such a thing
+  std::size_t visible, undecided;                           // pairs of a cell and a face
+  std::size_t cells_pairs, cells_visible, cells_undecided;  // of two cells
+  std::optional<Group_names> names;                         // of what cells are within, where there is such a thing
   std::vector<Group_row> groups;
 
   bool is_decided() const { return undecided + cells_undecided == 0; }
 };
 
 Table_facts facts_of(const Visibility_table& table, const Division& division, const Level_cells& level) {
+  std::size_t cells_pairs = 0, place = 0;  // of each lower cell those above it
+  for (std::size_t cell = 0; cell < table.lower_cells.size(); ++cell) {
+    if (!table.cells[cell]) continue;
+    ++place;
+    if (table.lower_cells[cell]) cells_pairs += table.rows.size() - place;
+  }
   Table_facts facts{count_of(table, &Visibility_table::Row::visible),
                     count_of(table, &Visibility_table::Row::undecided),
+                    cells_pairs,
                     count_of(table, &Visibility_table::Row::cells) / 2,
                     count_of(table, &Visibility_table::Row::cells_undecided) / 2,
                     names_of(division.kind),
@@ -166,12 +173,15 @@ Json result_json(const Pvs_arguments& arguments, const Level_cells& level, const
 /// How the pairs of the table were decided.
 void print(const Table_maker& maker, const Table_facts& facts, bool cells_too) {
   const Pvs_counters& c = maker.counters();
-  row("pairs", fmt::format("{} of a cell and a face: {} visible ({:.3g}%), {} undecided", c.pairs, facts.visible,
-                           percent(facts.visible, c.pairs), facts.undecided));
+  row("pairs", maker.blocks_kept() > 0
+                   ? fmt::format("{} of a cell and a face visible, {} undecided; {} asked about now, the others kept",
+                                 facts.visible, facts.undecided, c.pairs)
+                   : fmt::format("{} of a cell and a face: {} visible ({:.3g}%), {} undecided", c.pairs, facts.visible,
+                                 percent(facts.visible, c.pairs), facts.undecided));
   row("seen", fmt::format("{} within their cell, {} by a neighbour's sightline; {} searches, {} of which found hidden, "
                           "{} left to events; {} pairs were not reached",
                           c.within, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
-  if (cells_too) row_of_cells(maker.cell_counters(), facts.cells_visible, facts.cells_undecided);
+  if (cells_too) row_of_cells(maker.cell_counters(), facts.cells_pairs, facts.cells_visible, facts.cells_undecided);
   if (!facts.names) return;
   std::size_t pairs = 0;
   for (const Group_row& group : facts.groups) pairs += group.visible.size();

@@ -3,6 +3,7 @@
 #include <sightline/io/input.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <memory>
 #include <utility>
 
@@ -128,6 +129,8 @@ Answered answered(const Unit& unit, const Report_asking& asking) {
       leave_out(error.what());
     } catch (const std::invalid_argument& error) {
       leave_out(error.what());
+    } catch (const std::domain_error& error) {
+      leave_out(fmt::format("{}: beyond the range of doubles", error.what()));
     }
   }
   answers.rows = table.rows();

@@ -65,8 +65,11 @@ struct Solid_trial : Trial {
 }  // namespace
 
 double solid_error(const judge::Grade& grade) {
-  return std::max({std::fabs(grade.volume_error), std::fabs(grade.area_error),
-                   static_cast<double>(grade.wrong_points.size()) / std::max(1.0, static_cast<double>(grade.judged))});
+  // JSON has no infinity.
+  return std::min(
+      std::numeric_limits<double>::max(),
+      std::max({std::fabs(grade.volume_error), std::fabs(grade.area_error),
+                static_cast<double>(grade.wrong_points.size()) / std::max(1.0, static_cast<double>(grade.judged))}));
 }
 
 std::unique_ptr<Trial> boolean_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {

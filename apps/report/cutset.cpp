@@ -33,7 +33,8 @@ std::vector<Viewpoint> hard_views(const Polygon_soup& soup, std::size_t count, s
     }
     for (Rational& x : views.back().at) {
       x.canonicalize();
-      x = exact(nearest_double(x));
+      constexpr double most = std::numeric_limits<double>::max();
+      x = exact(std::clamp(nearest_double(x), -most, most));
     }
   }
   return views;

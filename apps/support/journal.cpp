@@ -18,6 +18,9 @@ Json resumed_head(const std::string& command, Json asked) {
   return {{"sightline", program_version()}, {"command", command}, {"asked", std::move(asked)}};
 }
 
+/// A line as it is written: bytes that are no UTF-8 are replaced.
+static std::string written(const Json& line) { return line.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 /// A value for people, not too long.
 static std::string shown(const nlohmann::json& value) {
   const std::string text =
@@ -30,7 +33,7 @@ void check_resumed(const std::string& file, const nlohmann::json& found, const J
   const auto refuse = [&](const std::string& what) {
     throw std::runtime_error(file + ": " + what + "; end that as it was begun, or delete the file to begin anew");
   };
-  const nlohmann::json wanted(head);
+  const nlohmann::json wanted = nlohmann::json::parse(written(head));
   if (!found.is_object() || !found.contains("asked") || !found["asked"].is_object()) refuse("is no file of --resume");
   for (const char* key : {"command", "sightline"})
     if (found.value(key, nlohmann::json()) != wanted[key])
@@ -110,7 +113,7 @@ std::vector<nlohmann::json> Journal::lines() {
     is_first = false;
     good_ = end + 1;
   }
-  if (is_first && !head_.dump().starts_with(bytes)) check_resumed(file_, nlohmann::json(), head_);  // somebody else's
+  if (is_first && !written(head_).starts_with(bytes)) check_resumed(file_, nlohmann::json(), head_);  // somebody else's
   return lines;
 }
 
@@ -122,9 +125,7 @@ void Journal::begin() {
   if (!out_) throw std::runtime_error(file_ + ": cannot be written; name another output, or leave out --resume");
 }
 
-void Journal::write(const Json& line) {
-  out_ << line.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n' << std::flush;
-}
+void Journal::write(const Json& line) { out_ << written(line) << '\n' << std::flush; }
 
 void Journal::add(const Json& line) {
   write(line);

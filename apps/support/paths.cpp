@@ -136,8 +136,11 @@ Projection projection_of(const std::vector<Direction3>& points, const Viewpoint&
   const bool parallel = viewpoint.at_infinity;
   View view;
   view.eye = viewpoint.at;
-  if (parallel)
-    for (std::size_t k = 0; k < 3; ++k) view.look[k] = -nearest_double(viewpoint.at[k]);
+  if (parallel) {
+    Rational largest = 0;
+    for (const Rational& x : viewpoint.at) largest = std::max(largest, Rational(abs(x)));
+    for (std::size_t k = 0; k < 3; ++k) view.look[k] = -nearest_double(Rational(viewpoint.at[k] / largest));
+  }
   view = aimed(view, scene);
   const Axes axes = axes_of(view);
   Projection to;

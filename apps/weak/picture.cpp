@@ -112,16 +112,22 @@ Picture_eye picture_eye(const Weak_arguments& arguments, const Occluders& occlud
 
   // 2. How far behind: as far as the visible point that needs most.
   constexpr double widest = 0.7, lean = 0.3;  // the tangent of half of 70 degrees; aside for each unit behind
+  Rational unit_of_way = 0;                   // so that no square is beyond doubles
+  for (const Exact_point& p : visible)
+    for (const Rational& x : minus(p, middle)) unit_of_way = std::max(unit_of_way, Rational(abs(x)));
+  if (unit_of_way == 0) unit_of_way = 1;
   double behind = 0;
   for (const Exact_point& p : visible) {
-    const Direction3 v = rounded(minus(p, middle));
+    Exact_point way = minus(p, middle);
+    for (Rational& x : way) x /= unit_of_way;
+    const Direction3 v = rounded(way);
     const double depth = std::max(0.0, dot(v, n)), far = std::sqrt(std::max(0.0, dot(v, v) - dot(v, n) * dot(v, n)));
     behind = std::max(behind, far / widest - depth);
   }
-  const double size = nearest_double(Rational(scene.box()[1][0] - scene.box()[0][0]));
+  const double size = nearest_double(Rational((scene.box()[1][0] - scene.box()[0][0]) / unit_of_way));
   behind = std::max(behind, 0.01 * size);
   Picture_eye eye{middle, plane, upright ? "" : "0,1,0"};
-  for (std::size_t k = 0; k < 3; ++k) eye.at[k] += exact(behind * (lean * aside[k] - n[k]));
+  for (std::size_t k = 0; k < 3; ++k) eye.at[k] += unit_of_way * exact(behind * (lean * aside[k] - n[k]));
   return eye;
 }
 

@@ -240,7 +240,8 @@ inline void add_of_question(Nonsense& nonsense, Along_certificate& claim, std::s
     nonsense.number("moment.low", moment.low);
     nonsense.number("moment.high", moment.high);
     nonsense.way("moment", [&moment](Bytes& bytes) {
-      if (moment.low == moment.high) moment.low -= 1;
+      if (moment.low == moment.high && bytes.below(2) == 0) moment.polynomial[bytes.below(3)] = 1;
+      else if (moment.low == moment.high) moment.low -= 1;
       else if (bytes.below(2) == 0) std::swap(moment.low, moment.high);
       else moment.polynomial[2] = 0;
     });

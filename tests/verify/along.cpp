@@ -231,7 +231,12 @@ TEST(Verify_along, moments_that_are_none) {
   refused(no_root, with_moment({{-1, 2, 0}, ratio(1, 4), ratio(3, 4)}));            // linear
   refused(no_root, with_moment({{3, -16, 16}, ratio(1, 8), ratio(7, 8)}));          // two roots
   refused(no_root, with_moment({{ratio(-1, 2), 0, 1}, ratio(3, 4), ratio(1, 2)}));  // ends exchanged
-  const Rational halves(Integer(2), Integer(4));                                    // not in lowest terms
+  // What a fraction is said with, too, would be read otherwise by who reads the quadratic alone.
+  const auto both = "moment 1 is a fraction, and has a quadratic, too";
+  refused(both, with_moment({{ratio(-9, 10), 0, 1}, ratio(1, 2), ratio(1, 2)}));
+  refused(both, with_moment({{-1, 2, 0}, ratio(1, 2), ratio(1, 2)}));
+  refused(both, with_moment({{1, 0, 0}, ratio(1, 2), ratio(1, 2)}));
+  const Rational halves(Integer(2), Integer(4));  // not in lowest terms
   const auto not_canonical = "moment 1 is not in canonical numbers";
   refused(not_canonical, with_moment({{}, halves, ratio(1, 2)}));
   refused(not_canonical, with_moment({{}, ratio(1, 2), halves}));

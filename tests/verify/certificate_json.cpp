@@ -230,6 +230,23 @@ TEST(Certificate_json, what_has_a_key_twice_is_refused) {
             "certificate: line 1, column 106: fragments[0]: the key \"face\" is there twice");
 }
 
+TEST(Certificate_json, a_moment_is_a_root_or_a_quadratic) {
+  for (const std::string& more :
+       std::vector<std::string>{R"("quadratic":["1","0","-1"])", R"("low":"0")", R"("high":"1")"}) {
+    const std::string text =
+        R"({"format":"sightline along 2","path":[["0","0","5"],["1","0","5"]],"moments":[{"root":"0",)" + more +
+        R"(},{"root":"1"}]})";
+    try {
+      read_any(text);
+      ADD_FAILURE() << text;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("moments[0]: expected a \"root\" or a \"quadratic\", not both"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Certificate_json, what_belongs_to_another_kind_is_passed_over) {
   const std::string head =
       R"({"arcs":7,"parts":[1],"rays":{"a":[[[[[[[[[[]]]]]]]]]]},"lines":[[0]],"empty":[[[5]],[1]],)";
