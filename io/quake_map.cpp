@@ -185,16 +185,17 @@ class Map_reader {
 
   /// What is between the quotes of a key or a value that begins with a token, all on one line.
   std::string_view quoted_from(std::string_view token) {
-    const std::string_view first = token;
-    const char* begin = token.data();
-    if (!token.starts_with('"')) begin = nullptr;
-    else token.remove_prefix(1);
-    while (begin != nullptr && !token.ends_with('"') && !(token = text_.next_token()).empty()) {
-    }
-    const char* const end = token.data() + token.size() - 1;
-    if (begin == nullptr || token.empty() || std::find(begin + 1, end, '"') != end)
+    const auto refuse = [&, first = token] {
       text_.fail(first, "no \"KEY\" \"VALUE\" here; write both on one line, with a blank between");
-    return {begin + 1, end};
+    };
+    if (!token.starts_with('"')) refuse();
+    token.remove_prefix(1);
+    const char* const begin = token.data();
+    while (!token.ends_with('"'))
+      if ((token = text_.next_token()).empty()) refuse();
+    const char* const end = token.data() + token.size() - 1;
+    if (std::find(begin, end, '"') != end) refuse();
+    return {begin, end};
   }
   /// Leaves a line behind, of which nothing is left that says more of the level.
   void finish_line() {

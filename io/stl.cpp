@@ -63,9 +63,11 @@ class Point_merger {
       if (const auto* floating = std::get_if<double>(&number)) return std::hash<double>()(*floating);
       const Rational& value = std::get<Rational>(number);
       std::uint64_t all = 0;
-      for (const Integer* part : {&value.get_num(), &value.get_den()})
+      for (const Integer* part : {&value.get_num(), &value.get_den()}) {
+        all = mixed(all, mpz_size(part->get_mpz_t()));  // where the one ends and the other begins
         for (std::size_t k = 0; k < mpz_size(part->get_mpz_t()); ++k)
           all = mixed(all, mpz_getlimbn(part->get_mpz_t(), static_cast<mp_size_t>(k)));
+      }
       return mixed(all, sgn(value) < 0 ? 1 : 0);
     }
     std::size_t operator()(const Point& point) const {

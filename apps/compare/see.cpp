@@ -123,12 +123,11 @@ struct See_trial : Trial {
         contestants.push_back({{{"kernel", kernel}, {"method", "partition"}}, [this, kernel] {
                                  return judge_kernel(kernel, scene, eye, options, reference, arguments.says);
                                }});
+    for (const double plane : {arguments.near, arguments.far})  // 0: automatic
+      if (plane != 0 && (static_cast<float>(plane) == 0 || std::isinf(static_cast<float>(plane))))
+        throw Usage_error(fmt::format("--near and --far are floats, and {} is none", plane));
     for (const std::uint32_t size : arguments.sizes)
       for (const int bits : arguments.bits) {
-        // 0 is a plane by itself.
-        for (const double plane : {arguments.near, arguments.far})
-          if (plane != 0 && (static_cast<float>(plane) == 0 || std::isinf(static_cast<float>(plane))))
-            throw Usage_error(fmt::format("--near and --far are floats, and {} is none", plane));
         const Depth_buffer_options pixels{size, bits, static_cast<float>(arguments.near),
                                           static_cast<float>(arguments.far)};
         contestants.push_back({{{"kernel", "float"}, {"method", "depth buffer"}, {"size", size}, {"bits", bits}},

@@ -85,15 +85,15 @@ Json explained(const Judge_arguments& arguments, const Judge_case& asked, const 
                     {"words", line.words}};
   }
   const Wrong_words words = words_of_wrong(asked.query.question);
-  const auto draw = [&](const Drawn_case& drawn) {
-    json["picture"] = picture_of(drawn.soup, drawn.query, drawn.grade, drawn.why, words);
-    json["view"] = view_of("judge", arguments.query, drawn.soup, drawn.query, drawn.grade, drawn.why, words);
+  const auto draw = [&](const Polygon_soup& soup, const Query& query, const Grade& grade, const Explanation& shown) {
+    json["picture"] = picture_of(soup, query, grade, shown, words);
+    json["view"] = view_of("judge", arguments.query, soup, query, grade, shown, words);
   };
-  const Drawn_case drawn{asked.soup, asked.query, broken.grade, why};
   try {
-    draw(drawn);
+    draw(asked.soup, asked.query, broken.grade, why);
   } catch (const std::domain_error&) {  // beyond doubles
-    draw(made_small(drawn));
+    const Drawn_case small = made_small({asked.soup, asked.query, broken.grade, why});
+    draw(small.soup, small.query, small.grade, small.why);
   }
   return json;
 }

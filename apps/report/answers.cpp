@@ -3,8 +3,8 @@
 #include <sightline/io/input.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 namespace sightline::app {

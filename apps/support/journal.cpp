@@ -19,12 +19,14 @@ Json resumed_head(const std::string& command, Json asked) {
 }
 
 /// A line as it is written: bytes that are no UTF-8 are replaced.
-static std::string written(const Json& line) { return line.dump(-1, ' ', false, Json::error_handler_t::replace); }
+template <class Value>
+static std::string written(const Value& line) {
+  return line.dump(-1, ' ', false, Value::error_handler_t::replace);
+}
 
 /// A value for people, not too long.
 static std::string shown(const nlohmann::json& value) {
-  const std::string text =
-      value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = value.is_string() ? value.get<std::string>() : written(value);
   constexpr std::size_t most = 60;
   return text.empty() ? "nothing" : text.size() > most ? text.substr(0, most) + "..." : text;
 }

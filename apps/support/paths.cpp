@@ -137,9 +137,8 @@ Projection projection_of(const std::vector<Direction3>& points, const Viewpoint&
   View view;
   view.eye = viewpoint.at;
   if (parallel) {
-    Rational largest = 0;
-    for (const Rational& x : viewpoint.at) largest = std::max(largest, Rational(abs(x)));
-    for (std::size_t k = 0; k < 3; ++k) view.look[k] = -nearest_double(Rational(viewpoint.at[k] / largest));
+    const Exact_point towards = scaled_to_one(viewpoint.at);
+    for (std::size_t k = 0; k < 3; ++k) view.look[k] = -nearest_double(towards[k]);
   }
   view = aimed(view, scene);
   const Axes axes = axes_of(view);

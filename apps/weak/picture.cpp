@@ -112,13 +112,13 @@ Picture_eye picture_eye(const Weak_arguments& arguments, const Occluders& occlud
 
   // 2. How far behind: as far as the visible point that needs most.
   constexpr double widest = 0.7, lean = 0.3;  // the tangent of half of 70 degrees; aside for each unit behind
-  Rational unit_of_way = 0;                   // so that no square is beyond doubles
+  std::vector<Exact_point> ways;
+  Rational unit_of_way = 0;  // so that no square is beyond doubles
   for (const Exact_point& p : visible)
-    for (const Rational& x : minus(p, middle)) unit_of_way = std::max(unit_of_way, Rational(abs(x)));
+    for (const Rational& x : ways.emplace_back(minus(p, middle))) unit_of_way = std::max(unit_of_way, Rational(abs(x)));
   if (unit_of_way == 0) unit_of_way = 1;
   double behind = 0;
-  for (const Exact_point& p : visible) {
-    Exact_point way = minus(p, middle);
+  for (Exact_point& way : ways) {
     for (Rational& x : way) x /= unit_of_way;
     const Direction3 v = rounded(way);
     const double depth = std::max(0.0, dot(v, n)), far = std::sqrt(std::max(0.0, dot(v, v) - dot(v, n) * dot(v, n)));

@@ -42,7 +42,7 @@ Space_tree own_tree(const Model& model) {
   const std::string& file = model.soup().file;
   if (std::filesystem::is_regular_file(file))
     if (const std::string bytes = read_bytes(file); looks_like_quake_level(bytes)) {
-      if (!have_same_points(read_scene(file), model.soup()))
+      if (!have_same_points(read_scene(bytes, Format::bsp, file), model.soup()))
         throw py::value_error(printable(file, file.size(), false) + " is no longer what was read; read it again");
       return space_tree(read_quake_level({file, bytes}), file);
     }

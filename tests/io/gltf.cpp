@@ -1,5 +1,7 @@
 // Scenes in glTF: what nodes make of meshes, exactly; and what is refused.
 
+#include "soup_text.h"
+
 #include <sightline/io/binary.h>
 #include <sightline/io/gltf.h>
 #include <sightline/io/file.h>
@@ -382,25 +384,19 @@ TEST(Read_gltf, reads_a_file_once_however_many_buffers_it_is) {
 }
 
 TEST(Read_gltf, json_that_is_none_is_told_where_its_token_begins) {
-  const auto said = [](const std::string& text) {
-    try {
-      read_scene(text, Format::gltf, "it");
-    } catch (const Input_error& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
+  const auto at = [](std::size_t line, std::size_t column, const std::string& text,
+                     const char* part = "this is no JSON") {
+    test::expect_error_at(line, column, part, text, Format::gltf);
   };
-  EXPECT_EQ(said("{\"asset\": x}"), "it:1:11: this is no JSON; repair the file");
-  EXPECT_EQ(said("{\"asset\": {\"version\":\"2.0\"},\n \"nodes\": [1,2,\n nul ]}"),
-            "it:3:2: this is no JSON; repair the file");
-  EXPECT_EQ(said("{\"asset\":\n{\"version\":\"2.0\"}}\n}"), "it:3:1: this is no JSON; repair the file");
-  EXPECT_EQ(said("{\"a\": \"b\tc\"}"), "it:1:8: this is no JSON; repair the file");
-  EXPECT_EQ(said("{\"a\": "), "it:1:7: this is no JSON; repair the file");
-  EXPECT_EQ(said("{\"a\": -1.5e+400}"), "it:1:7: a number beyond the range of doubles; repair the file");
-  const Glb gltf(triangle);
+  at(1, 11, "{\"asset\": x}");
+  at(3, 2, "{\"asset\": {\"version\":\"2.0\"},\n \"nodes\": [1,2,\n nul ]}");
+  at(3, 1, "{\"asset\":\n{\"version\":\"2.0\"}}\n}");
+  at(1, 8, "{\"a\": \"b\tc\"}");
+  at(1, 7, "{\"a\": ");
+  at(1, 7, "{\"a\": -1.5e+400}", "a number beyond the range of doubles");
+  const std::string whole = Glb(triangle).tree.dump();
   for (const std::string& behind : {std::string("\0", 1), std::string("\0 ]", 3), std::string("\0{}", 3)})
-    EXPECT_NE(said(gltf.tree.dump() + behind).find("this is behind the end of the JSON; remove it"), std::string::npos)
-        << said(gltf.tree.dump() + behind);
+    at(1, whole.size() + 1, whole + behind, "this is behind the end of the JSON; remove it");
 }
 
 TEST(Read_gltf, of_buffers_that_are_nowhere_says_so) {
