@@ -256,7 +256,7 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
       });
     if (wanted.lines) {
       const Stopwatch more;
-      seen.lines = line_drawing(view, surface, boxes, options.threads);
+      seen.lines = line_drawing(view, surface, boxes, options.threads, options.progress);
       seen.line_seconds = more.seconds();
     }
   } else if (kernel == "double") {

@@ -51,6 +51,10 @@ void parallel_invoke(const std::function<void()>& one, const std::function<void(
   require_whole(context);
 }
 
+void in_isolation(const std::function<void()>& work) {
+  tbb::this_task_arena::isolate([&] { work(); });
+}
+
 struct Task_group::Tasks {
   tbb::task_group group;
 };

@@ -21,6 +21,10 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 /// Does both, one of them perhaps in another thread. Errors: as parallel_for().
 void parallel_invoke(const std::function<void()>& one, const std::function<void()>& other);
 
+/// Does work that waits for tasks of its own: the thread takes up no others meanwhile, which might ask for what it is
+/// making.
+void in_isolation(const std::function<void()>& work);
+
 /// Tasks that may start more tasks, and an end to wait for.
 class Task_group {
  public:

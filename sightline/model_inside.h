@@ -5,6 +5,7 @@
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/rays/tracer.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/kernel/threads.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/sightline.h>
 
@@ -22,7 +23,7 @@ class Once {
  public:
   template <class Make>
   const T& get(const Make& make) const {
-    std::call_once(flag_, [&] { value_.reset(new T(make())); });  // where it is made it stays
+    std::call_once(flag_, [&] { in_isolation([&] { value_.reset(new T(make())); }); });  // where it is made it stays
     return *value_;
   }
 

@@ -14,7 +14,10 @@
 #include <sightline/model_inside.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <map>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -156,14 +159,29 @@ Seen seen_from(const Model& model, const Exact_point& eye, const std::vector<Exa
     seen.corners = vertices(*view, *surface, part);
     seen.from_front = view->eye_side(part.piece) == CGAL::POSITIVE;
   }
+  answer.measures_ = [made = std::make_shared<Once<std::map<Face_id, std::array<double, 2>>>>()](const Seen& seen,
+                                                                                                 Face_id face) {
+    const auto& measures = made->get([&] {
+      std::map<Face_id, std::array<double, 2>> sums;
+      for (const Seen::Visible_part& part : seen.parts) {
+        if (!part.from_front) continue;
+        std::array<double, 2>& sum = sums[part.face];
+        sum[0] += part.area();
+        sum[1] += part.solid_angle(seen.eye);
+      }
+      return sums;
+    });
+    const auto found = measures.find(face);
+    return found == measures.end() ? std::array<double, 2>{} : found->second;
+  };
   answer.certificate_ = [inside, view, surface, eye, field] {
     std::ostringstream out;
     write_visible_certificate(out, *view, *surface, eye, field);
     return std::move(out).str();
   };
-  answer.lines_ = [inside, view, surface, threads = asking.threads] {
+  answer.lines_ = [inside, view, surface, threads = asking.threads](const Line_progress& progress) {
     std::vector<Seen::Line> lines;
-    for (Drawn_line& drawn : line_drawing(*view, *surface, inside->boxes(), threads)) {
+    for (Drawn_line& drawn : line_drawing(*view, *surface, inside->boxes(), threads, progress)) {
       Seen::Line& line = lines.emplace_back(Seen::Line{drawn.ends, drawn.kind, std::move(drawn.faces), {}});
       for (const Line_part& part : drawn.parts) {
         Seen::Line::Stretch& stretch = line.stretches.emplace_back(Seen::Line::Stretch{part.from, part.to, {}});
@@ -183,20 +201,6 @@ Seen see_in_field(const Model& model, const Exact_point& eye, const std::vector<
                   const Asking& asking) {
   if (field.size() < 3) throw std::invalid_argument("a field of view has three rays or more");
   return seen_from(model, eye, field, asking);
-}
-
-double Seen::area(Face_id face) const {
-  double sum = 0;
-  for (const Visible_part& part : parts)
-    if (part.face == face && part.from_front) sum += part.area();
-  return sum;
-}
-
-double Seen::solid_angle(Face_id face) const {
-  double sum = 0;
-  for (const Visible_part& part : parts)
-    if (part.face == face && part.from_front) sum += part.solid_angle(eye);
-  return sum;
 }
 
 // ---- Rays

@@ -62,10 +62,10 @@ struct Part {
 struct Facts {
   std::size_t points_read, points, faces_read, faces, parts;  ///< different points; faces that are modelled
   std::size_t concave, non_planar, with_holes, planes;        ///< supporting planes
-  int bits;                                                   ///< of the largest coordinate on the scene's integer grid
-  std::string arithmetic;                                     ///< the narrowest exact one that fits
-  bool closed;                                                ///< whether the faces bound a solid
-  std::optional<std::array<Exact_point, 2>> box;              ///< of the points of faces; none: there are none
+  int bits;                                       ///< of the largest coordinate in steps of the scene's grid, from 0
+  std::string arithmetic;                         ///< the narrowest exact one that fits
+  bool closed;                                    ///< whether the faces bound a solid
+  std::optional<std::array<Exact_point, 2>> box;  ///< of the points of faces; none: there are none
 };
 
 /// A scene made ready, once, for all questions. Copies share it; it never changes, so any threads may ask it, and what
@@ -75,8 +75,8 @@ class Model {
  public:
   /// Errors: std::length_error for more than 2^28 points.
   explicit Model(Polygon_soup soup);
-  /// OBJ, OFF, PLY, STL, or OFF with rational coordinates. Errors: Input_error (io/input.h), a std::runtime_error that
-  /// names file, line and column.
+  /// Any file that the program reads: its content shows which format it has. Errors: Input_error (io/input.h), a
+  /// std::runtime_error that names file, line and column.
   static Model read(const std::filesystem::path& file);
   /// Errors: std::out_of_range for an index that is no point's, std::domain_error for a coordinate that is no number.
   static Model of_triangles(std::span<const std::array<double, 3>> points,
@@ -156,8 +156,11 @@ struct Seen : Answer {
   /// The visible parts of faces, those seen from behind too. They do not overlap: where several faces lie in one plane
   /// all of them are visible, and the part is of one of them, of one seen from its front if there is one.
   std::vector<Visible_part> parts;
-  double area(Face_id face) const;         ///< of its parts that are seen from its front
-  double solid_angle(Face_id face) const;  ///< the same in steradians, of 4 pi
+  /// Of a face's parts that are seen from its front. Cost: of all faces when it is first asked; then O(log n), whatever
+  /// becomes of `parts`.
+  double area(Face_id face) const { return measures_(*this, face)[0]; }
+  double solid_angle(Face_id face) const { return measures_(*this, face)[1]; }  ///< the same in steradians, of 4 pi
+  std::function<std::array<double, 2>(const Seen&, Face_id)> measures_;
 
   /// An edge of the scene, or a line where faces cross, in the drawing of what is seen.
   struct Line {
@@ -170,9 +173,12 @@ struct Seen : Answer {
     };
     std::vector<Stretch> stretches;  ///< from end to end
   };
-  /// Edges of which something is in the view, and what is seen of lines where faces cross. Made when asked for.
-  std::vector<Line> lines() const { return lines_(); }
-  std::function<std::vector<Line>()> lines_;
+  /// Edges of which something is in the view, and what is seen of lines where faces cross. Made when asked for; any
+  /// thread tells how much is done, and what `progress` throws ends it.
+  std::vector<Line> lines(const std::function<void(std::size_t done, std::size_t all)>& progress = {}) const {
+    return lines_(progress);
+  }
+  std::function<std::vector<Line>(const std::function<void(std::size_t done, std::size_t all)>&)> lines_;
 };
 Seen see(const Model& model, const Exact_point& eye, const Asking& asking = {});
 /// The same within the cone of some rays: each three in this order turn one way, and all are within less than a half

@@ -82,6 +82,7 @@ void Rasterizer<Put>::draw(std::uint32_t piece, std::vector<Corner> polygon) {
   if (std::any_of(polygon.begin(), polygon.end(), [&](const Corner& c) { return c.w < to_.near; })) {
     ++to_.clipped;
     polygon = clipped(polygon, [&](const Corner& c) { return c.w - to_.near; });
+    for (Corner& c : polygon) c.w = std::max(c.w, to_.near);  // floats may make it 0
   }
   // A guard band of 16 images' widths keeps coordinates in the image small; what is between it and the image is not
   // drawn anyway.
@@ -98,7 +99,8 @@ void Rasterizer<Put>::draw(std::uint32_t piece, std::vector<Corner> polygon) {
     const float inverse = 1 / c.w;
     const auto snapped = [&](float v, std::uint32_t size) {
       const float half = static_cast<float>(size) / 2;
-      return static_cast<std::int64_t>(std::lround((v * inverse * half + half) * 256));
+      return static_cast<std::int64_t>(
+          std::lround((std::clamp(v * inverse, -2 * guard, 2 * guard) * half + half) * 256));
     };
     corners.push_back({snapped(c.x, to_.width), snapped(c.y, to_.height), scale_ + shift_ * inverse});
   }

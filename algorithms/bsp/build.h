@@ -302,7 +302,7 @@ class Builder {
   std::optional<Plane> free_plane(std::span<const Polygon> polygons, std::span<const Polygon> sample,
                                   std::size_t best_cost, Workspace& mine) {
     std::vector<Plane> planes;
-    const std::size_t step = std::max<std::size_t>(1, polygons.size() / (4 * options_.sample));
+    const std::size_t step = std::max<std::size_t>(1, polygons.size() / (std::size_t{4} * options_.sample));
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<std::pair<double, const typename Traits::Vertex*>> corners;
       for (std::size_t i = 0; i < polygons.size(); i += step)

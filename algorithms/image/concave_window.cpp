@@ -85,8 +85,9 @@ class Window_clipper {
     }
   }
   void add(const Image_loop& loop, Owner owner, int wanted) {
-    const int sense = sgn(loop_area(loop));
-    for (std::size_t k = 0; sense != 0 && k < loop.size(); ++k) {
+    const int sense =
+        loop_area(loop) < 0 ? -1 : 1;  // where it has no area, it is a spike, which comes to nothing, or crosses itself
+    for (std::size_t k = 0; k < loop.size(); ++k) {
       const Image_point &from = loop[k], &to = loop[k + 1 == loop.size() ? 0 : k + 1];
       if (from < to) segments_.push_back({from, to, owner, sense * wanted});
       if (to < from) segments_.push_back({to, from, owner, -sense * wanted});

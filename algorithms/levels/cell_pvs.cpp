@@ -155,7 +155,7 @@ class Cell_pvs_search::Maker {
 
   /// All cells that see a cell, outwards from there.
   void flood(Cell_id cell) {
-    Column& column = columns_[cell];
+    Column& column = columns_[cell] = {};  // where it was given up, it begins anew
     Cell_pvs_counters& counters = column.counters;
     Flood flood{cell, std::vector<Known>(count_, Known::nothing), {}, counters};
     flood.see(cell);

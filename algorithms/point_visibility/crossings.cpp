@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -114,10 +115,27 @@ class Crossing_search {
     }
   }
 
-  std::vector<Crossing> find(const Piece_boxes& boxes, const std::vector<bool>& wanted) {
-    Close_pairs(boxes, wanted).each([&](std::uint32_t f, std::uint32_t g) { note(f, g); });
-    for (auto& [planes, reached] : reached_) add_chords(planes, reached);
-    for (auto& [line, chords] : chords_) list(chords);
+  std::vector<Crossing> find(const Piece_boxes& boxes, const std::vector<bool>& wanted,
+                             const std::function<void()>& go_on) {
+    std::vector<bool> has_boxes(scene_.pieces().size()), has_chunk = has_boxes;  // two or more; one
+    for (const Piece_boxes::Chunk& chunk : boxes.chunks()) {
+      if (has_chunk[chunk.piece]) has_boxes[chunk.piece] = true;
+      has_chunk[chunk.piece] = true;
+    }
+    std::set<std::pair<std::uint32_t, std::uint32_t>> noted;  // those that may come again
+    Close_pairs(boxes, wanted).each([&](std::uint32_t f, std::uint32_t g) {
+      if (go_on) go_on();
+      if ((has_boxes[f] || has_boxes[g]) && !noted.insert(std::minmax(f, g)).second) return;
+      note(f, g);
+    });
+    for (auto& [planes, reached] : reached_) {
+      if (go_on) go_on();
+      add_chords(planes, reached);
+    }
+    for (auto& [line, chords] : chords_) {
+      if (go_on) go_on();
+      list(chords);
+    }
     return std::move(found_);
   }
 
@@ -191,25 +209,26 @@ class Crossing_search {
     const std::array<std::array<Integer, 4>, 2> h{predicates_.coefficients(Plane(planes.first, false)),
                                                   predicates_.coefficients(Plane(planes.second, false))};
     const auto [line, turned] = line_of(h[low], h[high]);
-    std::vector<Chord>& chords = chords_[line];
+    std::map<std::uint32_t, Chord>& chords = chords_[line];
     const std::size_t axis = line[0] != 0 ? 0 : line[1] != 0 ? 1 : 2;
     for (const std::size_t k : {low, high})
       for (const Reaching& r : reached[k]) {
-        // The other plane's front is on the left of the line in the lower plane, and on its right in the higher one,
+        if (chords.contains(r.piece)) continue;  // by another plane through the line
+        // The other plane's front is on the right of the line in the lower plane, and on its left in the higher one,
         // unless the line is turned.
-        const bool left_is_front = (k == low) != turned;
+        const bool left_is_front = (k == high) != turned;
         Chord chord{r.piece,
                     plane_of(r.piece),
                     left_is_front ? r.front : r.behind,
                     left_is_front ? r.behind : r.front,
-                    ends_of(r.piece, h[1 - k]),
+                    ends_of(r.piece, k == low ? planes.second : planes.first, h[1 - k]),
                     {}};
         for (std::size_t e = 0; e < 2; ++e) chord.at[e] = place(chord.ends[e], axis);
         if (chord.at[1] < chord.at[0]) {
           std::swap(chord.at[0], chord.at[1]);
           std::swap(chord.ends[0], chord.ends[1]);
         }
-        chords.push_back(std::move(chord));
+        chords.emplace(r.piece, std::move(chord));
       }
   }
   /// The line of two planes, and whether it runs against the product of their normals.
@@ -230,20 +249,21 @@ class Crossing_search {
                    h[3]);
   }
   /// Where a strictly convex piece, across a plane or with an edge in it, meets it.
-  std::array<Crossing_end, 2> ends_of(std::uint32_t piece, const std::array<Integer, 4>& h) const {
+  std::array<Crossing_end, 2> ends_of(std::uint32_t piece, std::uint32_t plane, const std::array<Integer, 4>& h) {
     const std::span<const Piece_corner> corners = scene_.corners(scene_.pieces()[piece]);
     const Grid_points& points = scene_.points();
-    std::vector<Integer> heights;
-    for (const Piece_corner& corner : corners) heights.push_back(height(corner.point, h));
+    const Prepared_plane prepared = predicates_.prepare(Plane(plane, false));
+    std::vector<Sign> sides;
+    for (const Piece_corner& corner : corners) sides.push_back(side(corner.point, prepared));
     std::array<Crossing_end, 2> ends;
     std::size_t found = 0;
     for (std::size_t k = 0; k < corners.size() && found < 2; ++k) {
       const std::size_t next = k + 1 == corners.size() ? 0 : k + 1;
       const std::uint32_t p = corners[k].point, q = corners[next].point;
-      if (heights[k] == 0) {
+      if (sides[k] == CGAL::ZERO) {
         ends[found++] = {p, p, {points.integer(p, 0), points.integer(p, 1), points.integer(p, 2), 1}};
-      } else if (sgn(heights[k]) * sgn(heights[next]) < 0) {
-        const Integer to_p = abs(heights[k]), to_q = abs(heights[next]);
+      } else if (sides[k] * sides[next] < 0) {
+        const Integer to_p = abs(height(p, h)), to_q = abs(height(q, h));
         Crossing_end& end = ends[found++] = {p, q, {}};
         for (int i = 0; i < 3; ++i)
           end.at[static_cast<std::size_t>(i)] = to_q * points.integer(p, i) + to_p * points.integer(q, i);
@@ -261,11 +281,9 @@ class Crossing_search {
   // ---- Along one line
 
   /// Lists the stretches of a line that are inside the surfaces of two planes or more.
-  void list(std::vector<Chord>& chords) {
-    std::sort(chords.begin(), chords.end(), [](const Chord& a, const Chord& b) { return a.piece < b.piece; });
-    chords.erase(
-        std::unique(chords.begin(), chords.end(), [](const Chord& a, const Chord& b) { return a.piece == b.piece; }),
-        chords.end());
+  void list(std::map<std::uint32_t, Chord>& by_piece) {
+    std::vector<Chord> chords;
+    for (auto& [piece, chord] : by_piece) chords.push_back(std::move(chord));
     struct Event {
       std::uint32_t chord;
       std::size_t end;
@@ -276,7 +294,7 @@ class Crossing_search {
     const auto at = [&](const Event& e) -> const Rational& { return chords[e.chord].at[e.end]; };
     std::sort(events.begin(), events.end(), [&](const Event& a, const Event& b) { return at(a) < at(b); });
 
-    std::set<std::uint32_t> active;
+    std::set<std::uint32_t> active, before;
     std::optional<Crossing> open;
     for (std::size_t k = 0; k < events.size(); ++k) {
       if (events[k].end == 0) active.insert(events[k].chord);
@@ -284,13 +302,25 @@ class Crossing_search {
       if (k + 1 < events.size() && at(events[k + 1]) == at(events[k])) continue;
       const Crossing_end& here = chords[events[k].chord].ends[events[k].end];
       std::optional<Crossing> next = inside(chords, active, here);
-      if (open && next && same(*open, *next)) continue;
-      if (open) {
-        open->ends[1] = here;
-        found_.push_back(std::move(*open));
+      if (!open || !next || !same(*open, *next)) {
+        if (open) {
+          open->ends[1] = here;
+          open->beyond[1] = beyond(chords, before, *open, 1);
+          found_.push_back(std::move(*open));
+        }
+        if (next) next->beyond[0] = beyond(chords, active, *next, 0);
+        open = std::move(next);
       }
-      open = std::move(next);
+      before = active;
     }
+  }
+  /// An end of what a piece in the plane of a crossing's first one has of the line there. Pre: such a chord is active.
+  Crossing_end beyond(const std::vector<Chord>& chords, const std::set<std::uint32_t>& active, const Crossing& crossing,
+                      std::size_t end) const {
+    const std::uint32_t plane = plane_of(crossing.pieces[0]);
+    return chords[*std::find_if(active.begin(), active.end(),
+                                [&](std::uint32_t i) { return chords[i].plane == plane; })]
+        .ends[end];
   }
   /// The crossing that begins at an end with these chords, if they make one.
   std::optional<Crossing> inside(const std::vector<Chord>& chords, const std::set<std::uint32_t>& active,
@@ -303,7 +333,7 @@ class Crossing_search {
     }
     const auto both = [](const auto& of) { return of.second.first && of.second.second; };
     if (std::count_if(sides.begin(), sides.end(), both) < 2) return std::nullopt;
-    Crossing crossing{{}, {}, {from, from}};
+    Crossing crossing{{}, {}, {from, from}, {from, from}};
     std::set<std::uint32_t> planes;
     for (const std::uint32_t i : active) {
       if (!both(*sides.find(chords[i].plane))) continue;
@@ -329,19 +359,20 @@ class Crossing_search {
   Predicate_counts counts_;
   std::vector<std::uint32_t> in_plane_;  // pieces, by plane
   std::map<Two_planes, Reached> reached_;
-  std::map<Line_name, std::vector<Chord>> chords_;
+  std::map<Line_name, std::map<std::uint32_t, Chord>> chords_;  // by piece
   std::vector<Crossing> found_;
 };
 
 }  // namespace
 
 std::vector<Crossing> crossings(const Scene& scene, const Piece_boxes& boxes) {
-  return Crossing_search(scene).find(boxes, std::vector<bool>(scene.pieces().size(), true));
+  return Crossing_search(scene).find(boxes, std::vector<bool>(scene.pieces().size(), true), {});
 }
 
-std::vector<Crossing> crossings_on(const std::vector<bool>& pieces, const Scene& scene, const Piece_boxes& boxes) {
+std::vector<Crossing> crossings_on(const std::vector<bool>& pieces, const Scene& scene, const Piece_boxes& boxes,
+                                   const std::function<void()>& go_on) {
   Crossing_search search(scene);
-  return search.find(boxes, search.with_neighbours(pieces, boxes));
+  return search.find(boxes, search.with_neighbours(pieces, boxes), go_on);
 }
 
 }  // namespace sightline

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sightline {
@@ -23,6 +24,8 @@ struct Crossing {
   std::vector<Face_id> faces;         ///< that hold it, in these planes; ascending
   std::vector<std::uint32_t> pieces;  ///< one in each of the planes
   std::array<Crossing_end, 2> ends;
+  /// Of the line, not within the segment: ends of pieces in the plane of the first one, of whatever faces.
+  std::array<Crossing_end, 2> beyond;
 };
 
 /// Where faces cross. All pieces in one plane are one surface, however faces share it out; a point is listed that is
@@ -35,7 +38,8 @@ std::vector<Crossing> crossings(const Scene& scene, const Piece_boxes& boxes);
 /// The same up to what is not on some of the pieces: each point of these (closed) that crossings() lists is listed,
 /// with the same faces, but finitely many; of others some are, perhaps with fewer faces. Pre: for each piece whether it
 /// is one. Cost: follows the pairs of which one is among the pieces, or is in the plane of one or holds its edge.
-/// Exact: yes. Proof: P-65
-std::vector<Crossing> crossings_on(const std::vector<bool>& pieces, const Scene& scene, const Piece_boxes& boxes);
+/// `go_on` is asked now and again, and may end it by what it throws. Exact: yes. Proof: P-65
+std::vector<Crossing> crossings_on(const std::vector<bool>& pieces, const Scene& scene, const Piece_boxes& boxes,
+                                   const std::function<void()>& go_on = {});
 
 }  // namespace sightline

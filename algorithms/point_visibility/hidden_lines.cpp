@@ -5,6 +5,8 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -43,9 +45,51 @@ Edge_class classify(const Exact_view& view, const Scene_edge& edge) {
 Hidden_lines::Hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface)
     : view_(view), surface_(surface), predicates_(view.scene().predicates()), eye_(view.scene().locate(view.eye())) {
   const std::vector<Piece>& pieces = view.scene().pieces();
-  for (std::uint32_t i = 0; i < pieces.size(); ++i)
-    if (view.eye_side(i) == CGAL::ZERO) edge_on_[pieces[i].support.id()].push_back(i);
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    if (view.eye_side(i) != CGAL::ZERO) continue;
+    Edge_on_plane& plane = edge_on_[pieces[i].support.id()];
+    if (plane.pieces.empty()) {
+      const std::array<Integer, 4> h = predicates_.coefficients(pieces[i].support);
+      for (std::size_t k = 1; k < 3; ++k)
+        if (abs(h[k]) > abs(h[plane.axis])) plane.axis = k;
+    }
+    std::vector<std::array<Integer, 3>> directions;
+    for (const Piece_corner& corner : view.scene().corners(pieces[i]))
+      directions.push_back(view.direction(view.ray(corner.point)));
+    plane.pieces.push_back(i);
+    plane.turns.push_back(turn_of(directions, plane.axis));
+  }
   find_rims();
+}
+
+// Each angle is that of a vector whose numbers were rounded to 2^-52 of themselves, which turns it by less than that;
+// atan2() adds 2^-51. What is left out is at least a million times as far away as both.
+static constexpr double all_turns = 10, angle_error = 1e-9, pi = 3.14159265358979323846;
+
+bool Hidden_lines::Turn::meets(const Turn& other) const {
+  return std::fabs(std::remainder(middle - other.middle, 2 * pi)) <= half + other.half + angle_error;
+}
+
+Hidden_lines::Turn Hidden_lines::turn_of(const std::vector<std::array<Integer, 3>>& directions, std::size_t axis) {
+  const auto angle = [&](const std::array<Integer, 3>& d) {
+    std::array<long, 2> exponents{};
+    const Integer &x = d[(axis + 1) % 3], &y = d[(axis + 2) % 3];
+    const double to_x = mpz_get_d_2exp(&exponents[0], x.get_mpz_t()),
+                 to_y = mpz_get_d_2exp(&exponents[1], y.get_mpz_t());
+    const long apart = std::clamp(exponents[1] - exponents[0], -1000L, 1000L);
+    return std::atan2(std::ldexp(to_y, static_cast<int>(std::max(apart, 0L))),
+                      std::ldexp(to_x, static_cast<int>(std::max(-apart, 0L))));
+  };
+  const double first = angle(directions[0]);
+  double least = 0, most = 0;
+  for (const std::array<Integer, 3>& d : directions) {
+    if (is_zero(d)) return {0, all_turns};  // the eye
+    const double from_first = std::remainder(angle(d) - first, 2 * pi);
+    least = std::min(least, from_first);
+    most = std::max(most, from_first);
+  }
+  if (most - least > pi - angle_error) return {0, all_turns};  // the eye may be within
+  return {first + (least + most) / 2, (most - least) / 2};
 }
 
 std::vector<Line_part> Hidden_lines::parts(std::uint32_t p, std::uint32_t q) const {
@@ -59,18 +103,27 @@ std::vector<Line_part> Hidden_lines::parts(std::uint32_t p, std::uint32_t q) con
 std::vector<Line_part> Hidden_lines::parts(const Crossing& crossing) const {
   for (const std::uint32_t piece : crossing.pieces)
     if (view_.eye_side(piece) == CGAL::ZERO) return {};
-  const auto& [p, q] = crossing.ends;
-  std::array<Integer, 3> to_p = direction(p), to_q = direction(q);
-  // The plane of eye and line turns from p to q.
   Exact_view::Plane along = view_.crossing(crossing.pieces[0], crossing.pieces[1]);
+  Predicate_counts counts;
+  // A third face in the plane of eye and line may end the crossing by an edge in that plane.
+  std::array<Crossing_end, 2> ends = crossing.ends;
+  bool is_longer = false;
+  for (std::size_t e = 0; e < 2; ++e)
+    if (!has_ray(ends[e], along, counts)) {
+      ends[e] = crossing.beyond[e];
+      is_longer = true;
+    }
+  const auto& [p, q] = ends;
+  std::array<Integer, 3> to_p = direction(p), to_q = direction(q);
+  // The plane turns from p to q.
   const std::array<Integer, 3> normal = cross(to_p, to_q);
   if (sgn(dot(normal, view_.normal(along))) < 0) along = view_.opposite(along);
-  Predicate_counts counts;
   const Arc arc{towards(p, along, to_p, counts), towards(q, along, to_q, counts)};
   for (Integer& x : to_p) x *= q.at[3];
   for (Integer& x : to_q) x *= p.at[3];
   Walk walk{along, arc, to_p, to_q, p.at[3] * q.at[3]};
-  return parts(walk);
+  std::vector<Line_part> found = parts(walk);
+  return is_longer ? between(found, ends, crossing.ends) : found;
 }
 
 std::vector<Line_part> Hidden_lines::parts(Walk& walk) const {
@@ -83,6 +136,31 @@ std::vector<Line_part> Hidden_lines::parts(Walk& walk) const {
 std::array<Integer, 3> Hidden_lines::direction(const Crossing_end& end) const {
   return {Integer(eye_.w * end.at[0] - eye_.x * end.at[3]), Integer(eye_.w * end.at[1] - eye_.y * end.at[3]),
           Integer(eye_.w * end.at[2] - eye_.z * end.at[3])};
+}
+
+bool Hidden_lines::has_ray(const Crossing_end& end, const Exact_view::Plane& w, Predicate_counts& counts) const {
+  return end.p == end.q || view_.side(w, end.p, counts) != CGAL::ZERO || view_.side(w, end.q, counts) != CGAL::ZERO;
+}
+
+std::vector<Line_part> Hidden_lines::between(const std::vector<Line_part>& parts,
+                                             const std::array<Crossing_end, 2>& longer,
+                                             const std::array<Crossing_end, 2>& ends) {
+  const auto place = [](const Crossing_end& end, std::size_t axis) {
+    Rational at(end.at[axis], end.at[3]);
+    at.canonicalize();
+    return at;
+  };
+  std::size_t axis = 0;
+  while (place(ends[0], axis) == place(ends[1], axis)) ++axis;
+  const Rational first = place(longer[0], axis), whole = place(longer[1], axis) - first,
+                 from = (place(ends[0], axis) - first) / whole, length = (place(ends[1], axis) - first) / whole - from;
+  std::vector<Line_part> found;
+  for (const Line_part& part : parts) {
+    const Rational low = std::max(Rational(0), Rational((part.from - from) / length)),
+                   high = std::min(Rational(1), Rational((part.to - from) / length));
+    if (low < high) found.push_back({low, high, part.hidden_by});
+  }
+  return found;
 }
 
 Hidden_lines::Ray Hidden_lines::towards(const Crossing_end& end, const Exact_view::Plane& w,
@@ -223,9 +301,13 @@ void Hidden_lines::hide_along_rims(Walk& walk) const {
 
 void Hidden_lines::hide_behind_edge_on(Walk& walk) const {
   if (walk.within.empty()) return;
-  for (const auto& [plane, pieces] : edge_on_)
-    if (is_on(walk, pieces[0], walk.arc.from, walk.to_p) && is_on(walk, pieces[0], walk.arc.to, walk.to_q))
-      for (const std::uint32_t piece : pieces) hide_behind(walk, piece);
+  for (const auto& [id, plane] : edge_on_) {
+    const std::uint32_t first = plane.pieces[0];
+    if (!is_on(walk, first, walk.arc.from, walk.to_p) || !is_on(walk, first, walk.arc.to, walk.to_q)) continue;
+    const Turn turn = turn_of({walk.to_p, walk.to_q}, plane.axis);
+    for (std::size_t k = 0; k < plane.pieces.size(); ++k)
+      if (plane.turns[k].meets(turn)) hide_behind(walk, plane.pieces[k]);
+  }
 }
 
 std::vector<Hidden_lines::Flat> Hidden_lines::section(const Walk& walk, std::uint32_t piece) const {
@@ -317,28 +399,43 @@ std::vector<Line_part> Hidden_lines::in_order(Walk& walk) {
   return parts;
 }
 
-std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface, int threads) {
+/// Of `work` for each of so many lines.
+static void for_each_line(std::size_t count, int threads, const Line_progress& progress,
+                          const std::function<void(std::size_t)>& work) {
+  std::atomic<std::size_t> done{0};
+  run_with_threads(threads, [&] {
+    parallel_for(count, [&](std::size_t i) {
+      if (progress) progress(done, count);
+      work(i);
+      ++done;
+    });
+  });
+}
+
+std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface, int threads,
+                                     const Line_progress& progress) {
   std::vector<Drawn_edge> drawn;
   for (Scene_edge& edge : scene_edges(view.scene())) {
     const Edge_class kind = classify(view, edge);
     drawn.push_back({std::move(edge), kind, {}});
   }
   const Hidden_lines lines(view, surface);
-  run_with_threads(threads, [&] {
-    parallel_for(drawn.size(), [&](std::size_t i) { drawn[i].parts = lines.parts(drawn[i].edge.p, drawn[i].edge.q); });
-  });
+  for_each_line(drawn.size(), threads, progress,
+                [&](std::size_t i) { drawn[i].parts = lines.parts(drawn[i].edge.p, drawn[i].edge.q); });
   return drawn;
 }
 
 std::vector<Drawn_crossing> visible_crossings(const Exact_view& view, const Visible_surface<Exact_view>& surface,
-                                              const Piece_boxes& boxes, int threads) {
+                                              const Piece_boxes& boxes, int threads, const Line_progress& progress) {
   std::vector<bool> seen(view.scene().pieces().size(), false);  // all that is visible of crossings is on these. P-65
   for (const auto& part : surface.parts)
     if (part.piece != surface.nothing) seen[part.piece] = true;
-  const std::vector<Crossing> all = crossings_on(seen, view.scene(), boxes);
+  const std::vector<Crossing> all = crossings_on(seen, view.scene(), boxes, [&] {
+    if (progress) progress(0, 1);
+  });
   std::vector<std::vector<Line_part>> parts(all.size());
   const Hidden_lines lines(view, surface);
-  run_with_threads(threads, [&] { parallel_for(all.size(), [&](std::size_t i) { parts[i] = lines.parts(all[i]); }); });
+  for_each_line(all.size(), threads, progress, [&](std::size_t i) { parts[i] = lines.parts(all[i]); });
   std::vector<Drawn_crossing> drawn;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Exact_point p = view.scene().position(all[i].ends[0].at), q = view.scene().position(all[i].ends[1].at);

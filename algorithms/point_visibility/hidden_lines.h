@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -89,9 +90,14 @@ class Hidden_lines {
 
   /// From the eye to an end, times the last coordinate of the end.
   std::array<Integer, 3> direction(const Crossing_end& end) const;
-  /// The ray of an end of a line in plane w, along a direction that it has.
+  /// Whether it is a corner, or on an edge that is not in w, of which it has the line's plane.
+  bool has_ray(const Crossing_end& end, const Exact_view::Plane& w, Predicate_counts& counts) const;
+  /// The ray of an end of a line in plane w, along a direction that it has. Pre: it has one.
   Ray towards(const Crossing_end& end, const Exact_view::Plane& w, const std::array<Integer, 3>& direction,
               Predicate_counts& counts) const;
+  /// What a crossing has of parts of a longer piece of its line, by its own ends.
+  static std::vector<Line_part> between(const std::vector<Line_part>& parts, const std::array<Crossing_end, 2>& longer,
+                                        const std::array<Crossing_end, 2>& ends);
 
   // ---- Down the trees
 
@@ -124,6 +130,12 @@ class Hidden_lines {
   void hide_along_rims(Walk& walk) const;
   /// What is edge-on is in no part of the surface. It hides nothing but lines in its own plane.
   void hide_behind_edge_on(Walk& walk) const;
+  /// The directions in an edge-on plane, around the eye, in which something may be: as doubles say, and more.
+  struct Turn {
+    double middle, half;  ///< angles; half is more than a half turn where all directions are
+    bool meets(const Turn& other) const;
+  };
+  static Turn turn_of(const std::vector<std::array<Integer, 3>>& directions, std::size_t axis);
   /// What one piece hides, by itself. In the plane of the eye and the line a point is eye + x (p - eye) + y (q - eye);
   /// it is in front of the line iff x, y >= 0 and 0 < x + y < 1, at s = y / (x + y).
   void hide_behind(Walk& walk, std::uint32_t piece) const;
@@ -141,9 +153,18 @@ class Hidden_lines {
   const Visible_surface<Exact_view>& surface_;
   Predicates predicates_;
   Located_point eye_;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> edge_on_;  // pieces by plane
+  /// Pieces in a plane that holds the eye, which is not parallel to the axis.
+  struct Edge_on_plane {
+    std::size_t axis = 0;
+    std::vector<std::uint32_t> pieces = {};
+    std::vector<Turn> turns = {};  ///< of each piece
+  };
+  std::map<std::uint32_t, Edge_on_plane> edge_on_;
   std::vector<Rim> rims_;
 };
+
+/// What is done, of how much; from any thread.
+using Line_progress = std::function<void(std::size_t done, std::size_t all)>;
 
 struct Drawn_edge {
   Scene_edge edge;
@@ -152,9 +173,10 @@ struct Drawn_edge {
 };
 
 /// All edges of a scene with their parts within the surface's cones, by their points. Pre: the surface is the view's.
-/// Threads: 0: as many as there are processors; the result is the same for any number. Exact: yes. Proof: P-64
+/// Threads: 0: as many as there are processors; the result is the same for any number. Any of them tells how many lines
+/// are done; what `progress` throws ends it. Exact: yes. Proof: P-64
 std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface,
-                                     int threads = 0);
+                                     int threads = 0, const Line_progress& progress = {});
 
 /// A visible stretch of a line where faces cross, in the file's coordinates.
 struct Drawn_crossing {
@@ -164,8 +186,9 @@ struct Drawn_crossing {
 
 /// Where faces cross in what is seen: each open segment of `crossings(scene, boxes)` within the surface's cones that is
 /// visible, as long as can be. The same segments in any order of the faces. Pre: surface and boxes are the view's.
-/// Threads as above. Exact: yes. Proof: P-64, P-65
+/// Threads and progress as above. Exact: yes. Proof: P-64, P-65
 std::vector<Drawn_crossing> visible_crossings(const Exact_view& view, const Visible_surface<Exact_view>& surface,
-                                              const Piece_boxes& boxes, int threads = 0);
+                                              const Piece_boxes& boxes, int threads = 0,
+                                              const Line_progress& progress = {});
 
 }  // namespace sightline

@@ -12,11 +12,11 @@ Exact_point Drawn_line::at(const Rational& t) const {
 }
 
 std::vector<Drawn_line> line_drawing(const Exact_view& view, const Visible_surface<Exact_view>& surface,
-                                     const Piece_boxes& boxes, int threads) {
+                                     const Piece_boxes& boxes, int threads, const Line_progress& progress) {
   static constexpr const char* names[] = {"boundary", "silhouette", "smooth", "crease"};
   const Scene& scene = view.scene();
   std::vector<Drawn_line> lines;
-  for (Drawn_edge& drawn : hidden_lines(view, surface, threads)) {
+  for (Drawn_edge& drawn : hidden_lines(view, surface, threads, progress)) {
     if (drawn.parts.empty()) continue;
     Drawn_line& line = lines.emplace_back(Drawn_line{{scene.position(drawn.edge.p), scene.position(drawn.edge.q)},
                                                      names[static_cast<std::size_t>(drawn.kind)],
@@ -24,7 +24,7 @@ std::vector<Drawn_line> line_drawing(const Exact_view& view, const Visible_surfa
                                                      std::move(drawn.parts)});
     for (const std::uint32_t piece : drawn.edge.pieces) line.faces.push_back(scene.pieces()[piece].face);
   }
-  for (Drawn_crossing& crossing : visible_crossings(view, surface, boxes, threads))
+  for (Drawn_crossing& crossing : visible_crossings(view, surface, boxes, threads, progress))
     lines.push_back({crossing.ends, "intersection", std::move(crossing.faces), {{0, 1, Line_part::nothing}}});
   return lines;
 }

@@ -19,8 +19,8 @@ struct Drawn_line {
 };
 
 /// Edges of the scene of which something is within the surface's cones, then what is seen of lines where faces cross.
-/// Pre: surface and boxes are the view's. Threads: as of hidden_lines(). Exact: yes. Proof: P-64, P-65
+/// Pre: surface and boxes are the view's. Threads, progress: as of hidden_lines(). Exact: yes. Proof: P-64, P-65
 std::vector<Drawn_line> line_drawing(const Exact_view& view, const Visible_surface<Exact_view>& surface,
-                                     const Piece_boxes& boxes, int threads = 0);
+                                     const Piece_boxes& boxes, int threads = 0, const Line_progress& progress = {});
 
 }  // namespace sightline

@@ -82,7 +82,7 @@ struct Operand_flaw {
 };
 
 /// What is wrong with the operands, in their order: faces that cross themselves, and the edges on lines where the
-/// operand's oriented boundary is not zero, each as often as it is given (closure() of kernel/scene/closed.h, but by
+/// operand's oriented boundary is not zero, each once (closure() of kernel/scene/closed.h, but by
 /// operand). Empty: each operand gives every point off its faces a winding number. Degenerate: no faces are closed.
 /// Cost: O(edges log edges). Exact: yes. Proof: P-08
 std::vector<Operand_flaw> flaws(const Operands& operands);

@@ -299,11 +299,39 @@ std::set<Place> places_of(const Polygon_soup& rounded) {
   return places;
 }
 
-/// Which points before are none of the surface's, and which of its own are new.
+std::vector<bool> corners_of(const Polygon_soup& surface) {
+  std::vector<bool> is_corner(surface.point_count());
+  for (Face_id f = 0; f < surface.face_count(); ++f)
+    for (const Point_id p : surface.loop(f)) is_corner[p] = true;
+  return is_corner;
+}
+
+/// The same surface without points that are no corners, of faces that vanished. Pre: faces have no holes.
+Polygon_soup with_corners_alone(const Polygon_soup& surface) {
+  const std::vector<bool> is_corner = corners_of(surface);
+  Polygon_soup result;
+  result.file = surface.file;
+  std::vector<Point_id> number(surface.point_count());
+  for (Point_id p = 0; p < surface.point_count(); ++p) {
+    if (!is_corner[p]) continue;
+    number[p] = static_cast<Point_id>(result.point_count());
+    const Exact_point at = surface.point(p);
+    result.add_point(at[0], at[1], at[2]);
+  }
+  for (Face_id f = 0; f < surface.face_count(); ++f) {
+    std::vector<Point_id> corners;
+    for (const Point_id p : surface.loop(f)) corners.push_back(number[p]);
+    result.add_face(corners);
+  }
+  return result;
+}
+
+/// Which corners before are none of the surface's, and which of its own are new.
 void add_changed_points(Rounded_surface& surface, const Polygon_soup& before, const std::vector<Place>& nearest) {
   const std::set<Place> now = places_of(surface.soup), then(nearest.begin(), nearest.end());
+  const std::vector<bool> was_corner = corners_of(before);
   for (Point_id p = 0; p < before.point_count(); ++p)
-    if (now.count(nearest[p]) == 0) surface.vanished.push_back(p);
+    if (was_corner[p] && now.count(nearest[p]) == 0) surface.vanished.push_back(p);
   for (Point_id p = 0; p < surface.soup.point_count(); ++p) {
     const Exact_point at = surface.soup.point(p);
     if (then.count({nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2])}) == 0)
@@ -354,6 +382,7 @@ std::optional<Rounded_surface> snapped_to_grid(const Polygon_soup& soup, Roundin
     if (!is_sound && crosses_itself(surface.soup)) surface = surface_at(now.soup, places, true, true, progress);
     for (Face_id& face : surface.face_of) face = now.face_of[face];
     if (is_sound) {
+      surface.soup = with_corners_alone(surface.soup);
       surface.farthest = double_above(farthest);
       surface.not_planar.assign(not_planar.begin(), not_planar.end());
       add_turned(surface, soup);

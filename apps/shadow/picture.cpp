@@ -15,14 +15,35 @@ namespace {
 
 using Corners = std::vector<Direction3>;
 
+/// A normal, as long as twice the area.
+Direction3 area_normal_of(const Corners& corners) {
+  Direction3 normal{};
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const Direction3 n = cross(minus(corners[k - 1], corners[0]), minus(corners[k], corners[0]));
+    for (std::size_t i = 0; i < 3; ++i) normal[i] += n[i];
+  }
+  return normal;
+}
+
+/// The axis that a polygon is steepest to.
+std::size_t axis_of(const Corners& corners) {
+  const Direction3 normal = area_normal_of(corners);
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (std::fabs(normal[k]) > std::fabs(normal[axis])) axis = k;
+  return axis;
+}
+
+/// Twice its area.
+double size_of(const Corners& corners) {
+  const Direction3 normal = area_normal_of(corners);
+  return std::sqrt(dot(normal, normal));
+}
+
 /// What is in both of two convex polygons of one plane, which is not parallel to the axis.
 Corners common_part(Corners polygon, const Corners& by, std::size_t axis) {
   const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-  double sense = 0;
-  for (std::size_t k = 0; k < by.size(); ++k) {
-    const Direction3 &a = by[k], &b = by[(k + 1) % by.size()];
-    sense += a[x] * b[y] - a[y] * b[x];
-  }
+  const double sense = area_normal_of(by)[axis] < 0 ? -1 : 1;
   for (std::size_t k = 0; k < by.size() && !polygon.empty(); ++k) {
     const Direction3 &a = by[k], &b = by[(k + 1) % by.size()];
     const auto inside = [&](const Direction3& p) {
@@ -42,34 +63,10 @@ Corners common_part(Corners polygon, const Corners& by, std::size_t axis) {
   return polygon.size() < 3 ? Corners() : polygon;
 }
 
-Corners rounded_corners(const std::vector<Exact_point>& corners) {
+Corners rounded_corners(const Near_doubles& doubles, const std::vector<Exact_point>& corners) {
   Corners all;
-  for (const Exact_point& p : corners)
-    all.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+  for (const Exact_point& p : corners) all.push_back(doubles.point(p));
   return all;
-}
-
-/// The axis that a polygon is steepest to.
-std::size_t axis_of(const Corners& corners) {
-  Direction3 normal{};
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Direction3 n = cross(corners[k], corners[(k + 1) % corners.size()]);
-    for (std::size_t i = 0; i < 3; ++i) normal[i] += n[i];
-  }
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (std::fabs(normal[k]) > std::fabs(normal[axis])) axis = k;
-  return axis;
-}
-
-/// Twice its area.
-double size_of(const Corners& corners) {
-  Direction3 normal{};
-  for (std::size_t k = 2; k < corners.size(); ++k) {
-    const Direction3 n = cross(minus(corners[k - 1], corners[0]), minus(corners[k], corners[0]));
-    for (std::size_t i = 0; i < 3; ++i) normal[i] += n[i];
-  }
-  return std::sqrt(dot(normal, normal));
 }
 
 /// A part of what the eye sees, with how many lights reach it, and what shadows it from the last one that does not.
@@ -103,7 +100,7 @@ Flat_box box_of(const std::vector<Flat_point>& points) {
 /// The parts that a light makes of one side of a piece, found by where they are on it: a ground has thousands.
 class Parts_on_piece {
  public:
-  void add(const Shadow_part& part) { parts_.push_back({&part, rounded_corners(part.vertices), {}}); }
+  void add(const Shadow_part& part, Corners corners) { parts_.push_back({&part, std::move(corners), {}}); }
   bool empty() const { return parts_.empty(); }
 
   void prepare() {
@@ -190,12 +187,11 @@ Look look_of(const Scene& scene, const Shown& one, std::size_t lights, double sh
 /// A view that is asked for many points.
 class Camera {
  public:
-  explicit Camera(const View& view)
-      : view_(view),
-        axes_(axes_of(view)),
-        from_{nearest_double(view.eye[0]), nearest_double(view.eye[1]), nearest_double(view.eye[2])} {}
+  Camera(const View& view, const Near_doubles& doubles)
+      : view_(view), axes_(axes_of(view)), doubles_(doubles), from_(doubles.point(view.eye)) {}
 
   const View& view() const { return view_; }
+  const Near_doubles& doubles() const { return doubles_; }
   std::vector<Flat_point> picture_of(const Corners& corners) const {
     std::vector<Flat_point> points;
     for (const Direction3& p : corners) points.push_back(projected(view_, axes_, minus(p, from_)));
@@ -205,6 +201,7 @@ class Camera {
  private:
   View view_;
   Axes axes_;
+  Near_doubles doubles_;
   Direction3 from_;
 };
 
@@ -216,7 +213,7 @@ std::vector<Shown> seen_parts(const Scene& scene, const Piece_boxes& boxes, cons
   std::vector<Shown> shown;
   for (const auto& part : surface.parts) {
     if (part.piece == surface.nothing) continue;
-    Corners corners = rounded_corners(vertices(seen_from, surface, part));
+    Corners corners = rounded_corners(camera.doubles(), vertices(seen_from, surface, part));
     const auto [least, most] = box_of(camera.picture_of(corners));
     Shown& one = shown.emplace_back(Shown{part.piece, seen_from.eye_side(part.piece), false});
     one.is_small = most[0] - least[0] < 1 && most[1] - least[1] < 1;
@@ -246,9 +243,11 @@ const Shadow_part* largest_common(Parts_on_piece& parts, const Corners& polygon)
 }
 
 /// What is shown, cut into the parts that one more light makes; what is small stays whole.
-std::vector<Shown> cut_by_light(std::vector<Shown> shown, const Shadows& light, const Visible_options& options) {
+std::vector<Shown> cut_by_light(std::vector<Shown> shown, const Shadows& light, const Near_doubles& doubles,
+                                const Visible_options& options) {
   std::map<std::pair<std::uint32_t, Sign>, Parts_on_piece> by_piece;  // the light is on that side
-  for (const Shadow_part& part : light.parts) by_piece[{part.piece, part.side}].add(part);
+  for (const Shadow_part& part : light.parts)
+    by_piece[{part.piece, part.side}].add(part, rounded_corners(doubles, part.vertices));
   for (auto& [piece, parts] : by_piece) parts.prepare();
   std::vector<Shown> finer;
   for (Shown& one : shown) {
@@ -310,14 +309,14 @@ std::size_t draw(const Shadow_arguments& arguments, const Scene& scene, const Pi
   Svg svg = empty_picture(view);
   std::size_t whole = 0;
   if (scene.counters().faces > 0) {
-    const Camera camera(view);
+    const Camera camera(view, near_doubles(scene.box_of_faces()));
     Visible_options options;
     options.threads = arguments.common.threads;
     options.progress = arguments.common.within_budget();
     std::vector<Shown> shown = seen_parts(scene, boxes, eye, camera, options);
     whole = static_cast<std::size_t>(
         std::count_if(shown.begin(), shown.end(), [](const Shown& one) { return one.is_small; }));
-    for (const Shadows& light : all) shown = cut_by_light(std::move(shown), light, options);
+    for (const Shadows& light : all) shown = cut_by_light(std::move(shown), light, camera.doubles(), options);
     draw_shapes(svg, scene, shapes_of(shown, camera), all.size(), view.lit);
   }
   write_file(arguments.svg, svg.text());

@@ -36,6 +36,17 @@ static Direction3 towards(const Exact_point& p, const Exact_point& eye, const Di
 }
 static Direction3 towards(const Exact_point& p, const Exact_point& eye) { return towards(p, eye, difference(p, eye)); }
 
+Direction3 Near_doubles::vector(const Exact_point& v) const {
+  return {nearest_double(times_power(v[0], exponent_)), nearest_double(times_power(v[1], exponent_)),
+          nearest_double(times_power(v[2], exponent_))};
+}
+Near_doubles near_doubles(const std::array<Exact_point, 2>& box) {
+  const Exact_point sizes = minus(box[1], box[0]);
+  Exact_point middle;
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = (box[0][k] + box[1][k]) / 2;
+  return {middle, std::max({sizes[0], sizes[1], sizes[2]})};
+}
+
 static Direction3 parse_direction(const std::string& text, const std::string& option) {
   const Exact_point p = parse_point(text, option);
   const Direction3 direction{nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};

@@ -18,6 +18,23 @@ namespace sightline::app {
 
 using Direction3 = std::array<double, 3>;
 
+/// Exact points and vectors in doubles that hold them however far and however large all is: from an origin, in a unit
+/// of about a size, which is a power of two. Exact: rounded once.
+class Near_doubles {
+ public:
+  /// Degenerate: a unit of one where the size is 0.
+  Near_doubles(Exact_point origin, const Rational& size)
+      : origin_(std::move(origin)), exponent_(size == 0 ? 0 : -binary_exponent(size)) {}
+  Direction3 point(const Exact_point& p) const { return vector(minus(p, origin_)); }
+  Direction3 vector(const Exact_point& v) const;
+
+ private:
+  Exact_point origin_;
+  long exponent_;
+};
+/// Of a box.
+Near_doubles near_doubles(const std::array<Exact_point, 2>& box);
+
 /// A fragment as drawn: where it is, and which part of its face.
 struct Drawn {
   Order_fragment fragment;   ///< exact vertices; `piece` is the convex piece of the face, as in the certificate

@@ -1,5 +1,7 @@
 #include "partition_picture.h"
 
+#include "../support/picture.h"
+
 #include <sightline/harness/generate/random.h>
 #include <sightline/io/svg.h>
 #include <sightline/kernel/vectors.h>
@@ -8,8 +10,13 @@ namespace sightline::app {
 
 namespace {
 
-std::array<double, 3> rounded_vector(const Exact_point& p) {
-  return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+/// Of a face, from where its first chart begins.
+Near_doubles doubles_of(const Divided_face& divided) {
+  Rational size = 0;
+  for (const Light_partition& partition : divided.pieces)
+    for (const std::size_t side : {1, 2})
+      for (const Rational& x : partition.chart[side]) size = std::max(size, Rational(abs(x)));
+  return {divided.pieces.front().chart[0], size};
 }
 
 std::array<double, 3> unit_vector(std::array<double, 3> a) {
@@ -21,12 +28,13 @@ std::array<double, 3> unit_vector(std::array<double, 3> a) {
 // ---- Rays
 
 /// A piece in its chart: a corner and the direction to the next, counterclockwise or not.
-std::vector<Flat_point> chart_corners(const Scene& scene, const Light_partition& partition) {
-  const std::array<double, 3> u = rounded_vector(partition.chart[1]), v = rounded_vector(partition.chart[2]);
+std::vector<Flat_point> chart_corners(const Scene& scene, const Light_partition& partition,
+                                      const Near_doubles& doubles) {
+  const std::array<double, 3> u = doubles.vector(partition.chart[1]), v = doubles.vector(partition.chart[2]);
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), area = uu * vv - uv * uv;
   std::vector<Flat_point> corners;
   for (const Piece_corner& corner : scene.corners(scene.pieces()[partition.piece])) {
-    const std::array<double, 3> p = rounded_vector(minus(scene.position(corner.point), partition.chart[0]));
+    const std::array<double, 3> p = doubles.vector(minus(scene.position(corner.point), partition.chart[0]));
     const double pu = dot(p, u), pv = dot(p, v);
     corners.push_back({(pu * vv - pv * uv) / area, (pv * uu - pu * uv) / area});
   }
@@ -78,14 +86,13 @@ class Picture_frame {
  public:
   static constexpr double margin = 20, legend = 36, wide = 760;
 
-  Picture_frame(const Scene& scene, const Divided_face& divided) : first_(&divided.pieces.front()) {
-    right_ = unit_vector(rounded_vector(first_->chart[1]));
-    const auto h = scene.file_coefficients(scene.pieces()[first_->piece].support);
+  Picture_frame(const Scene& scene, const Divided_face& divided) : doubles_(doubles_of(divided)) {
+    const Light_partition& first = divided.pieces.front();
+    right_ = unit_vector(doubles_.vector(first.chart[1]));
+    const auto h = scene.file_coefficients(scene.pieces()[first.piece].support);
     const Rational largest = std::max({Rational(abs(h[0])), Rational(abs(h[1])), Rational(abs(h[2]))});
-    up_ = cross(
-        unit_vector(rounded_vector({Rational(h[0] / largest), Rational(h[1] / largest), Rational(h[2] / largest)})),
-        right_);
-    low_ = high_ = flat(*first_, 0, 0);
+    up_ = cross(unit_vector(Near_doubles({}, largest).vector({h[0], h[1], h[2]})), right_);
+    low_ = high_ = flat(first, 0, 0);
     for (const Light_partition& partition : divided.pieces)
       for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1), std::pair(1, 1)}) {
         const Flat_point p = flat(partition, x, y);
@@ -106,14 +113,14 @@ class Picture_frame {
 
  private:
   Flat_point flat(const Light_partition& partition, double x, double y) const {
-    const std::array<double, 3> o = rounded_vector(minus(partition.chart[0], first_->chart[0])),
-                                u = rounded_vector(partition.chart[1]), v = rounded_vector(partition.chart[2]);
+    const std::array<double, 3> o = doubles_.point(partition.chart[0]), u = doubles_.vector(partition.chart[1]),
+                                v = doubles_.vector(partition.chart[2]);
     std::array<double, 3> p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = o[k] + x * u[k] + y * v[k];
     return {dot(p, right_), -dot(p, up_)};
   }
 
-  const Light_partition* first_;
+  Near_doubles doubles_;
   std::array<double, 3> right_, up_;
   Flat_point low_, high_;
   double scale_;
@@ -149,14 +156,15 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
   constexpr int in_a_square = 16;
   constexpr long fine = 1 << 20;
   const Scene& scene = occluders.scene();
+  const Near_doubles doubles = doubles_of(divided);
   generate::Random random(seed);
   // 1. How long a square's side is.
   std::vector<std::array<double, 2>> sides;
   double area = 0;
   for (const Light_partition& partition : divided.pieces) {
-    const std::array<double, 3> u = rounded_vector(partition.chart[1]), v = rounded_vector(partition.chart[2]);
+    const std::array<double, 3> u = doubles.vector(partition.chart[1]), v = doubles.vector(partition.chart[2]);
     sides.push_back({std::sqrt(dot(u, u)), std::sqrt(dot(v, v))});
-    area += sides.back()[0] * sides.back()[1] * std::fabs(signed_area(chart_corners(scene, partition)));
+    area += sides.back()[0] * sides.back()[1] * std::fabs(signed_area(chart_corners(scene, partition, doubles)));
   }
   const double side = std::sqrt(in_a_square * area / static_cast<double>(rays));
   // 2. Rays from each square of each piece, if they begin within it.
@@ -165,7 +173,7 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
   for (std::size_t n = 0; n < divided.pieces.size(); ++n) {
     const Light_partition& partition = divided.pieces[n];
     const Near_plane& plane = occluders.plane(partition.piece);
-    const std::vector<Flat_point> corners = chart_corners(scene, partition);
+    const std::vector<Flat_point> corners = chart_corners(scene, partition, doubles);
     std::array<long, 2> count;
     for (std::size_t k = 0; k < 2; ++k) count[k] = std::max(1L, std::lround(sides[n][k] / side));
     const auto reaches = [&](const Near_point& p) {
@@ -252,12 +260,13 @@ std::string picture_of(const Scene& scene, const Divided_face& divided, const Sa
             }));
   if (beside == nullptr) return svg.text();
   // 2. Squares of rays.
+  const Near_doubles doubles = doubles_of(divided);
   Shapes squares;
   for (const Sampled_face::Square& square : beside->squares) {
     const Light_partition& partition = divided.pieces[square.piece];
     std::vector<Flat_point> pixels;
-    for (const Flat_point& p :
-         between(between(chart_corners(scene, partition), 0, square.x[0], square.x[1]), 1, square.y[0], square.y[1])) {
+    for (const Flat_point& p : between(between(chart_corners(scene, partition, doubles), 0, square.x[0], square.x[1]),
+                                       1, square.y[0], square.y[1])) {
       const Flat_point at = frame.pixel(partition, p[0], p[1]);
       pixels.push_back({at[0] + to_second, at[1]});
     }

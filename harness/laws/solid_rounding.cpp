@@ -113,11 +113,14 @@ std::string flaw_of_points(const Polygon_soup& nearest, const Rounded_surface& a
     if (now.count(nearest.point(p)) > 0) return "a point is said to vanish that is there";
   for (const Point_id p : after.added)
     if (then.count(after.soup.point(p)) > 0) return "a point is said to be new that was there";
+  std::set<Point_id> corners;
   std::set<std::set<Point_id>> faces;
   for (Face_id f = 0; f < after.soup.face_count(); ++f) {
     const std::span<const Point_id> loop = after.soup.loop(f);
+    corners.insert(loop.begin(), loop.end());
     if (!faces.insert(std::set<Point_id>(loop.begin(), loop.end())).second) return "two faces have the same corners";
   }
+  if (corners.size() != after.soup.point_count()) return "a point is no face's corner";
   return {};
 }
 

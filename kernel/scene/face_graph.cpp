@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <utility>
 
 namespace sightline {
@@ -79,10 +80,19 @@ Face_graph::Face_graph(const Scene& scene) : scene_(&scene) {
 }
 
 void Face_graph::Builder::build_mesh() {
-  // OpenMesh complains on standard error of what it refuses.
+  // OpenMesh complains of what it refuses, on a stream that all threads have.
   struct Silence {
+    static std::mutex& one_at_a_time() {
+      static std::mutex mutex;
+      return mutex;
+    }
+    const std::scoped_lock<std::mutex> lock{one_at_a_time()};
+    const bool was_enabled = omerr().is_enabled();
     Silence() { omerr().disable(); }
-    ~Silence() { omerr().enable(); }
+    ~Silence() {
+      if (was_enabled) omerr().enable();
+    }
+    Silence(const Silence&) = delete;
   } const silence;
   const Grid_points& points = scene_->points();
   const auto add_vertex = [&](std::uint32_t p) {
@@ -177,12 +187,14 @@ void Face_graph::Builder::find_components() {
   std::vector<bool> bent_outwards(components_.size(), true);
   Predicate_counts counts;
   const Predicates predicates = scene_->predicates();
-  for_each_shared_edge([&](auto, std::uint32_t i, std::uint32_t j) {
+  for_each_shared_edge([&](auto half, std::uint32_t i, std::uint32_t j) {
     if (node_[i] == node_[j] || !bent_outwards[component_[node_[i]]]) return;
     const Prepared_plane plane = predicates.prepare(scene_->pieces()[i].support);
-    for (const Piece_corner& corner : scene_->corners(scene_->pieces()[j]))
-      if (predicates.side(vertex(predicates, corner.point), plane, counts) == CGAL::POSITIVE)
-        bent_outwards[component_[node_[i]]] = false;
+    // All corners of the other piece that are not on the edge are on one side, as the planes' line is the edge's.
+    const auto next = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(half));
+    const std::uint32_t corner = point_of(mesh_.to_vertex_handle(next));
+    if (predicates.side(vertex(predicates, corner), plane, counts) == CGAL::POSITIVE)
+      bent_outwards[component_[node_[i]]] = false;
   });
   for (std::size_t c = 0; c < components_.size(); ++c) {
     components_[c].pieces = static_cast<std::uint32_t>(pieces[c].size());

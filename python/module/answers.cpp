@@ -36,12 +36,12 @@ py::tuple graph_of(const Model& model, const Question& question) {
 
 /// A drawing that is made when it is asked for.
 struct Drawing {
-  std::function<std::vector<Seen::Line>()> lines;
+  decltype(Seen::lines_) lines;
 };
 
 py::list lines_of(const Drawing& drawing) {
   const std::vector<Seen::Line> lines =
-      answer_to(plain_question(), [make = drawing.lines](const Asking&) { return make(); });
+      answer_to(plain_question(), [make = drawing.lines](const Asking& asking) { return make(asking.progress); });
   py::list all;
   for (const Seen::Line& line : lines) {
     py::list stretches;

@@ -176,6 +176,43 @@ view_scenes::Case on_a_small_lattice(std::uint64_t seed) {
   return {"lattice " + std::to_string(seed), view_scenes::soup_of(faces), {away(), away(), away()}};
 }
 
+/// Pages through the z-axis, strips that may hide them, and an eye in the plane of a page, as often as not.
+view_scenes::Case pages_through_a_line(std::uint64_t seed) {
+  Random random(seed);
+  const auto any = [&](int least, int most) { return static_cast<long>(random.between(least, most)); };
+  std::vector<Points> faces;
+  Exact_point way;
+  for (std::size_t count = 2 + random.below(4); count > 0; --count) {
+    way = {any(-2, 2), any(-2, 2), 0};
+    if (oracle::is_zero(way)) way[0] = 1;
+    const auto corner = [&](int side, long z) { return Exact_point{way[0] * side, way[1] * side, z}; };
+    const long low[] = {any(-4, 0), any(-4, 0)}, high[] = {any(1, 4), any(1, 4)};
+    faces.push_back({corner(-1, low[0]), corner(1, low[1]), corner(1, high[0]), corner(-1, high[1])});
+  }
+  const long far = any(3, 6);
+  const Exact_point eye{way[0] * far, way[1] * far, any(-2, 2)};
+  for (std::size_t count = random.below(3); count > 0; --count) {
+    const Exact_point at{way[0] * 2, way[1] * 2, Rational(any(-8, 8)) / 3}, across{-way[1], way[0], 0};
+    faces.push_back({oracle::along(at, -1, across), oracle::along(at, 1, across),
+                     oracle::along(oracle::along(at, 1, across), 1, {0, 0, Rational(1) / 4}),
+                     oracle::along(oracle::along(at, -1, across), 1, {0, 0, Rational(1) / 4})});
+  }
+  std::rotate(faces.begin(), faces.begin() + any(0, static_cast<int>(faces.size()) - 1), faces.end());
+  return {"pages " + std::to_string(seed), view_scenes::soup_of(faces), eye};
+}
+
+TEST(Crossing_lines, that_a_face_in_the_plane_of_the_eye_ends_are_those_of_brute_force) {
+  std::size_t seen = 0;
+  for (std::uint64_t seed = 1; seed <= test_scenes::sample(std::uint64_t{300}) && !HasFailure(); ++seed) {
+    const view_scenes::Case given = pages_through_a_line(seed);
+    SCOPED_TRACE(given.name);
+    const std::set<Segment> found = crossings_in(given.soup, given.eye);
+    EXPECT_EQ(found, crossings_seen(oracle::flats_of(Scene(given.soup)), given.eye, {}));
+    seen += found.size();
+  }
+  EXPECT_GT(seen, test_scenes::least(std::size_t{100}));
+}
+
 TEST(Crossing_lines, of_small_lattices_are_those_of_brute_force) {
   std::size_t seen = 0;
   for (std::uint64_t seed = 1; seed <= test_scenes::sample(std::uint64_t{150}) && !testing::Test::HasFailure();

@@ -130,6 +130,84 @@ TEST_F(Pictures, of_coordinates_from_tiny_to_huge_hold_numbers_alone) {
   expect_filled(drawn({"order", huge}));
 }
 
+TEST_F(Pictures, are_the_same_at_any_scale_and_in_any_place) {
+  const auto times_power = [](int x) {  // 2^600 of them
+    std::string digits = std::to_string(x);
+    for (int k = 0; k < 600; ++k) {
+      int carried = 0;
+      for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit) {
+        const int twice = 2 * (*digit - '0') + carried;
+        *digit = static_cast<char>('0' + twice % 10);
+        carried = twice / 10;
+      }
+      if (carried > 0) digits.insert(digits.begin(), '1');
+    }
+    return digits;
+  };
+  // Each number n of the scene as another one.
+  const auto scene_of = [&](const auto& number) {
+    std::string text = "OFF\n22 7 0\n";
+    for (const char* corner :
+         {"0 0 0", "8 0 0", "8 8 0", "0 8 0", "2 2 1", "6 3 1", "5 6 1", "2 5 1", "0 0 0", "8 0 0", "8 0 5",
+          "0 0 5", "3 4 1", "4 4 1", "4 4 3", "4 4 3", "4 5 3", "3 5 3", "1 1 0", "1 2 0", "1 2 2", "1 1 2"}) {
+      std::istringstream three(corner);
+      for (int x; three >> x;) text += number(x) + " ";
+      text += "\n";
+    }
+    return text + "4 0 1 2 3\n4 4 5 6 7\n4 7 6 5 4\n4 8 9 10 11\n3 12 13 14\n3 15 16 17\n4 18 19 20 21\n";
+  };
+  const auto drawn_of = [&](const std::string& command, const auto& number) {
+    const std::string scene = file("scene.qoff", scene_of(number)), svg = path("drawn.svg").string();
+    std::vector<std::string> words;
+    std::istringstream given(command);
+    for (std::string word; given >> word;) {
+      std::string& all = words.emplace_back(word == "SCENE" ? scene : word);
+      if (word.find(',') == std::string::npos) continue;
+      all.clear();  // points, with numbers of one digit
+      for (const char c : word) all += c == ';' ? " " : c == ',' ? "," : number(c - '0');
+    }
+    words.insert(words.end(), {"--svg", svg});
+    fs::remove(svg);
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, done) << r;
+    return read_file(svg);
+  };
+  // Their numbers, which are rounded; and what is between them.
+  const auto parts_of = [](const std::string& text) {
+    std::pair<std::vector<double>, std::string> parts;
+    for (std::size_t at = 0; at < text.size();) {
+      if (std::isdigit(static_cast<unsigned char>(text[at])) == 0) {
+        parts.second += text[at++];
+        continue;
+      }
+      std::size_t read = 0;
+      parts.first.push_back(std::stod(text.substr(at, 20), &read));
+      at += read;
+    }
+    return parts;
+  };
+  for (const char* command :
+       {"see SCENE --eye 9,9,9", "see SCENE --eye 9,9,9 --lines", "order SCENE --eye 9,9,9",
+        "shadow SCENE --light 3,3,9 --light 9,1,7 --eye 9,9,9", "weak SCENE --from 3,3,8;4,3,8;4,4,8",
+        "weak SCENE --from 3,3,8;3,4,8;4,4,8 --partition 0 --beside-rays 2000"}) {
+    SCOPED_TRACE(command);
+    const std::string plain = drawn_of(command, [](int x) { return std::to_string(x); });
+    const auto parts = parts_of(plain);
+    EXPECT_GT(parts.first.size(), 50u);
+    const auto expect_same = [&](const std::string& what, const auto& number) {
+      SCOPED_TRACE(what);
+      const auto others = parts_of(drawn_of(command, number));
+      EXPECT_TRUE(others.second == parts.second);  // they are long
+      ASSERT_EQ(others.first.size(), parts.first.size());
+      for (std::size_t k = 0; k < others.first.size(); ++k)
+        ASSERT_NEAR(others.first[k], parts.first[k], 0.02) << "number " << k;
+    };
+    expect_same("2^600", times_power);
+    expect_same("2^-600", [&](int x) { return std::to_string(x) + "/" + times_power(1); });
+    expect_same("far away", [](int x) { return std::to_string(1'000'000'000'000'000'000 + x); });
+  }
+}
+
 TEST_F(Pictures, keep_what_is_given_of_direction_and_field) {
   const std::vector<std::string> eye{"see", cube, "--eye", "0.5,-10,0.5"};
   const auto with = [&](std::vector<std::string> more) {

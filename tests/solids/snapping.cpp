@@ -14,6 +14,7 @@
 #include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/solid_oracle.h>
+#include <sightline/io/off.h>
 #include <sightline/kernel/threads.h>
 #include <sightline/kernel/vectors.h>
 
@@ -145,6 +146,19 @@ void expect_points_told(const Polygon_soup& before, const Rounded_surface& after
   EXPECT_EQ(after.added.size(), added) << name;
   for (const Point_id p : after.added)
     EXPECT_EQ(nearest.count(place_in_floats(after.soup.point(p))), 0u) << name << ", " << p;
+}
+
+TEST(Snapping, keeps_no_point_of_faces_that_vanish) {
+  // A cube, and a tetrahedron that is smaller than the step of floats.
+  std::string text = "OFF\n12 10 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n";
+  text += "10 10 10\n10.0000000000000000001 10 10\n10 10.0000000000000000001 10\n10 10 10.0000000000000000001\n";
+  text += "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  text += "3 8 10 9\n3 8 9 11\n3 9 10 11\n3 10 8 11\n";
+  const Rounded_surface after = snapped(read_off({"tiny.off", text}), Rounding::to_float);
+  EXPECT_TRUE(after.is_sound());
+  EXPECT_EQ(after.soup.point_count(), 8u);
+  EXPECT_EQ(after.soup.face_count(), 6u);
+  EXPECT_EQ(after.vanished, (std::vector<Point_id>{8, 9, 10, 11}));
 }
 
 TEST(Snapping, leaves_a_solid_wherever_rounding_does_not) {

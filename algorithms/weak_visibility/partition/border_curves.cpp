@@ -72,8 +72,10 @@ void Border_search::lines_between_points_in_the_plane() {
     make_canonical(at);
     points.insert(std::move(at));
   }
-  for (auto p = points.begin(); p != points.end(); ++p)
+  for (auto p = points.begin(); p != points.end(); ++p) {
+    if (out_of_time()) return;
     for (auto q = std::next(p); q != points.end(); ++q) add(chart_->line(*p, *q), true, {{-1, 2, -1, 2}});
+  }
 }
 
 // ---- Lines: planes with edges and vertices
@@ -83,7 +85,10 @@ void Border_search::planes() {
   if (!planes.find([&] { return out_of_time(); })) return;
   std::map<Homogeneous, Points, Less_entries> all;
   std::size_t dropped = 0;
-  for (const auto& [plane, flat] : planes.flats()) all[plane] = planes.points_in(plane, flat, dropped);
+  for (const auto& [plane, flat] : planes.flats()) {
+    if (out_of_time()) return;
+    all[plane] = planes.points_in(plane, flat, dropped);
+  }
   for (const auto& [vertex, flats] : planes.vertices()) {
     if (out_of_time()) return;
     for (const Homogeneous& plane : planes.planes_through(planes.point(vertex), dropped)) all[plane].insert(vertex);
