@@ -44,14 +44,14 @@ std::string flaw_of_parts(const Model& model, const Seen& found) {
   claim.parts.clear();
   for (const Seen::Visible_part& part : found.parts) {
     const auto place = place_of.find({part.face, part.piece});
-    if (place == place_of.end()) return "parts one is of no piece of " + face_name(part.face);
+    if (place == place_of.end()) return "the front door has a part of no piece of " + face_name(part.face);
     Exact_point ray{0, 0, 0};
     for (const Exact_point& p : part.corners)
       for (std::size_t k = 0; k < 3; ++k) ray[k] += p[k] - found.eye[k];
     claim.parts.push_back({place->second, part.corners, ray});
   }
   const Verdict verdict = verify_visible(model.soup(), claim, {1, {}});
-  return verdict.accepted ? std::string() : "parts are not what is seen: " + verdict.why;
+  return verdict.accepted ? std::string() : "the front door's parts are not what is seen: " + verdict.why;
 }
 
 /// The eye's side of a convex part: 1 in front, -1 behind, 0 in its plane.
@@ -121,7 +121,7 @@ Answer seen_by_front_door(const Posed_scene& posed) {
       answer.flaw = "the front door has a part of face " + std::to_string(part.face) + " from its other side";
   check_certificate(model, found, answer);
   if (!answer.flaw.empty()) return answer;
-  if (const std::string flaw = flaw_of_parts(model, found); !flaw.empty()) answer.flaw = "the front door's " + flaw;
+  answer.flaw = flaw_of_parts(model, found);
   return answer;
 }
 
