@@ -1,6 +1,6 @@
 #pragma once
 // The front door as another way to each answer: what a user gets from sightline/sightline.h is held to what the rooms
-// behind it say, and its certificates to the checkers.
+// behind it say, and its certificates, and parts of what is seen in these, to the checkers.
 
 #include <sightline/harness/laws/subject.h>
 
@@ -14,7 +14,7 @@ Answer seen_by_front_door(const Posed_scene& posed);
 /// What is seen weakly from posed.source.
 Answer weakly_seen_by_front_door(const Posed_scene& posed);
 
-/// The check "front_door": the subject's labels again, by one of these.
+/// The check "front_door": the subject's labels again, by one of these; components by their numbers, too.
 Check front_door_check(Answer (*by_front_door)(const Posed_scene&));
 
 }  // namespace sightline::harness

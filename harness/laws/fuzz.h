@@ -45,8 +45,8 @@ struct Disagreement {
 };
 
 /// Runs the subject and all its checks (or the named one) on a scene, in order, up to the first that fails. Answers are
-/// checked by themselves first: "certificate". An exception is a failure. `seed` is of the checks' random choices;
-/// `tell(check, outcome)` is told of each.
+/// checked by themselves first: "certificate", which does not apply where the subject has none. An exception is a
+/// failure. `seed` is of the checks' random choices; `tell(check, outcome)` is told of each.
 template <class Tell>
 std::optional<Disagreement> first_disagreement(const Subject& subject, const Posed_scene& scene, std::uint64_t seed,
                                                const std::string& only, Tell tell) {
@@ -54,7 +54,7 @@ std::optional<Disagreement> first_disagreement(const Subject& subject, const Pos
   try {
     const Answer answer = subject.verified ? subject.verified(scene) : subject.answer(scene);
     if (!answer.flaw.empty()) return Disagreement{at, answer.flaw};
-    tell(at, answer.undecided > 0 ? Outcome::undecided() : Outcome{});
+    tell(at, !subject.verified ? Outcome::not_applicable() : answer.undecided > 0 ? Outcome::undecided() : Outcome{});
     for (std::size_t k = 0; k < subject.checks.size(); ++k) {
       const Check& check = subject.checks[k];
       if (!only.empty() && check.name != only) continue;

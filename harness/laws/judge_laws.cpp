@@ -124,7 +124,7 @@ Outcome judge_rays(const Posed_scene& posed, Random& random) {
   judge::Answer answer;
   std::set<std::size_t> wrong;
   for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-    const std::vector<Face_hit> first = only_first(hits_by_definition(posed.soup, scene, rays[ray], Ray_start::open));
+    const std::vector<Face_hit> first = first_by_definition(posed.soup, scene, rays[ray], Ray_start::open);
     std::optional<Face_id> said;
     if (!first.empty() && random.chance(1, 2)) said = first[random.below(first.size())].face;
     else if (random.chance(1, 2)) said = scene.pieces()[random.below(scene.pieces().size())].face;

@@ -36,6 +36,7 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/harness/generate/pixel_views.h>
+#include <sightline/harness/generate/rays.h>
 #include <sightline/harness/laws/solids.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/threads.h>
@@ -136,6 +137,7 @@ std::string lines(const Posed_scene& posed, const Manner& manner, std::uint64_t)
        line_drawing(view, visible_surface(view, boxes, visible_options({})), boxes, manner.threads)) {
     put_points(out, {line.ends.begin(), line.ends.end()});
     out << line.kind << ' ' << line.parts.size() << '\n';
+    for (const Line_part& part : line.parts) out << part.from << ' ' << part.to << ' ' << part.hidden_by << '\n';
     put_all(out, line.faces);
   }
   return out.str();
@@ -161,6 +163,35 @@ std::string way(const Posed_scene& posed, const Manner& manner, std::uint64_t ch
   return out.str();
 }
 
+/// Of more rays than one thread takes at a time.
+std::string hits(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
+  constexpr std::size_t many = 600;
+  Random random(choice);
+  std::vector<Exact_ray> rays;
+  std::vector<Double_ray> doubles;
+  for (const generate::Ray_kind& kind : generate::ray_kinds()) rays.push_back(kind.make(posed.soup, random));
+  for (std::size_t k = 0; rays.size() < many; ++k) rays.push_back(rays[k]);
+  for (const Exact_ray& exact : rays)
+    if (const Double_ray ray = in_doubles(exact); is_ray(ray)) doubles.push_back(ray);
+  const Ray_start start = choice % 2 != 0 ? Ray_start::open : Ray_start::closed;
+  const Asking asking{manner.threads, manner.progress};
+  const Model model(posed.soup);
+  std::ostringstream out;
+  if (choice / 2 % 3 == 0) {
+    for (const Nearest_face& hit : nearest(model, doubles, start, asking))
+      out << hit.face << ' ' << static_cast<int>(hit.side) << ' ' << hit.tied << ' ' << std::hexfloat << hit.low << ' '
+          << hit.high << '\n';
+    return out.str();
+  }
+  for (const auto& its :
+       choice / 2 % 3 == 1 ? trace(model, rays, start, asking) : trace_all(model, rays, start, asking)) {
+    for (const Face_hit& hit : its)
+      out << hit.face << ' ' << static_cast<int>(hit.side) << ' ' << hit.t << ' ' << hit.until << ", ";
+    out << '\n';
+  }
+  return out.str();
+}
+
 // ---- Orders
 
 std::string tree(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
@@ -173,9 +204,14 @@ std::string tree(const Posed_scene& posed, const Manner& manner, std::uint64_t c
   const auto tree = build_bsp(traits, options);
   std::ostringstream out;
   for (const auto& node : tree.nodes)
-    out << node.front << ' ' << node.behind << ' ' << node.first << ' ' << node.count << '\n';
-  for (const auto& fragment : tree.fragments)
-    out << fragment.polygon.piece << ' ' << fragment.polygon.size << ' ' << fragment.number << '\n';
+    out << node.plane.id() << ' ' << node.plane.flipped() << ' ' << node.front << ' ' << node.behind << ' '
+        << node.first << ' ' << node.count << '\n';
+  for (const auto& fragment : tree.fragments) {
+    out << fragment.polygon.piece << ' ' << fragment.same_sense << ' ' << fragment.number << ": ";
+    std::vector<Exact_point> corners;
+    for (const auto& corner : fragment.polygon) corners.push_back(traits.position(*corner.vertex));
+    put_points(out, corners);
+  }
   return out.str();
 }
 
@@ -414,7 +450,10 @@ std::string two_trees(const Posed_scene& posed, const Manner& manner, std::uint6
   options.progress = manner.progress;
   const auto found = bsp2d(view, whole_sphere(view), options).surface;
   std::ostringstream out;
-  for (const auto& part : found.parts) out << part.piece << ' ' << part.size << '\n';
+  for (const auto& part : found.parts) {
+    out << part.piece << ' ' << part.size << ' ';
+    put_points(out, part.piece == found.nothing ? std::vector<Exact_point>() : vertices(view, found, part));
+  }
   put_all(out, found.visible);
   return out.str();
 }
@@ -460,6 +499,7 @@ std::vector<Question> questions_of_see() {
           {"the line drawing", lines},
           {"what is seen on a way", way}};
 }
+std::vector<Question> questions_of_trace() { return {{"what rays meet", hits, true}}; }
 std::vector<Question> questions_of_order() {
   return {{"the tree", tree, true, true},
           {"the priority tree", priority_tree, false, true},

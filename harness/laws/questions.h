@@ -8,6 +8,7 @@
 namespace sightline::harness {
 
 std::vector<Question> questions_of_see();
+std::vector<Question> questions_of_trace();
 std::vector<Question> questions_of_order();
 std::vector<Question> questions_of_graph();
 std::vector<Question> questions_of_weak();

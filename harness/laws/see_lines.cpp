@@ -4,9 +4,11 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -189,8 +191,45 @@ Exact_point point_inside(const Exact_point& p, const Rational& from, const Ratio
   return between(p, Rational(from + share * (to - from)), q);
 }
 
+/// That the edges are those of pieces, but for edges between two pieces of one face, and that the parts of each go from
+/// its one end to the other, unless the eye is on its line.
+std::string flaw_of_edges(const Scene& scene, const std::vector<Drawn_edge>& edges, const Exact_point& eye) {
+  const std::vector<Piece>& pieces = scene.pieces();
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> all;
+  for (std::uint32_t piece = 0; piece < pieces.size(); ++piece) {
+    const auto corners = scene.corners(pieces[piece]);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      all[std::minmax(corners[k].point, corners[(k + 1) % corners.size()].point)].push_back(piece);
+  }
+  std::erase_if(all, [&](const auto& edge) {
+    return edge.second.size() == 2 && pieces[edge.second[0]].face == pieces[edge.second[1]].face;
+  });
+  if (edges.size() != all.size())
+    return std::to_string(edges.size()) + " edges are listed, and there are " + std::to_string(all.size());
+  for (const Drawn_edge& drawn : edges) {
+    const auto known = all.find({drawn.edge.p, drawn.edge.q});
+    std::vector<std::uint32_t> bounded = drawn.edge.pieces;
+    std::sort(bounded.begin(), bounded.end());
+    if (known == all.end() || known->second != bounded) return "an edge is listed that is none, or has other pieces";
+    const Exact_point p = scene.position(drawn.edge.p), q = scene.position(drawn.edge.q);
+    if (is_zero(cross(minus(p, eye), minus(q, eye)))) {
+      if (!drawn.parts.empty()) return name_of(scene, drawn) + " has parts, and the eye is on its line";
+      continue;
+    }
+    Rational end = 0;
+    for (const Line_part& part : drawn.parts) {
+      if (part.from != end || part.to <= end) return name_of(scene, drawn) + " has a gap, or parts that overlap";
+      end = part.to;
+    }
+    if (end != 1) return name_of(scene, drawn) + " has no parts up to its end";
+  }
+  return {};
+}
+
 Outcome check_edges(const Looked& looked, const Flat_pieces& flats, const Exact_point& eye, Random& random) {
-  for (const Drawn_edge& drawn : looked.edges()) {
+  const std::vector<Drawn_edge> edges = looked.edges();
+  if (const std::string flaw = flaw_of_edges(looked.scene, edges, eye); !flaw.empty()) return Outcome::failed(flaw);
+  for (const Drawn_edge& drawn : edges) {
     const Exact_point p = looked.scene.position(drawn.edge.p), q = looked.scene.position(drawn.edge.q);
     for (const Line_part& part : drawn.parts) {
       const Exact_point x = point_inside(p, part.from, part.to, q, random);
@@ -232,6 +271,68 @@ Outcome check_crossings(const Looked& looked, const Flat_pieces& flats, const Ex
                                std::to_string(flats[g].face));
     }
   return {};
+}
+
+/// Pages through one line, some of which end on it, the eye in the plane of one of them more often than not, and strips
+/// between the eye and the line.
+Posed_scene any_pages(Random& random) {
+  using namespace generate;
+  Posed_scene posed;
+  Faces faces;
+  const auto number = [&](std::int64_t least, std::int64_t most) { return integer(random, least, most); };
+  const auto [u, v] = directions(random, 2);
+  Exact_point axis = lattice(random, 2);
+  while (sgn(dot(axis, cross(u, v))) == 0) axis = lattice(random, 2);
+  const Exact_point origin = lattice(random, 3);
+  const auto on_line = [&](const Rational& height) { return along(origin, height, axis); };
+  std::vector<Exact_point> ways;
+  for (std::uint64_t pages = 3 + random.below(3); pages > 0; --pages) {
+    Exact_point way = along({0, 0, 0}, number(1, 2), u);
+    way = along(way, number(-2, 2), v);
+    if (random.chance(1, 4)) way = v;
+    ways.push_back(way);
+    const bool crosses = random.chance(3, 4);
+    const Rational left = crosses ? number(-2, -1) : number(-2, 0),
+                   right = crosses ? number(1, 2) : left + number(1, 3), low = number(-2, 2), high = low + number(1, 4);
+    Points page;
+    for (const auto& [across, up] : {std::array{left, low}, {right, low}, {right, high}, {left, high}})
+      page.push_back(along(on_line(up), across, way));
+    if (random.chance(1, 4)) page.erase(page.begin() + static_cast<std::ptrdiff_t>(random.below(page.size())));
+    faces.push_back(either_way(page, random));
+  }
+  posed.eye = random.chance(1, 4) ? lattice(random, 6) : along(on_line(number(-3, 4)), number(-5, -1), ways[0]);
+  for (std::uint64_t strips = random.below(3); strips > 0; --strips) {
+    const Exact_point to = on_line(number(-8, 16) / 4), at = along(posed.eye, number(1, 3) / 4, minus(to, posed.eye));
+    const Exact_point wide = lattice(random, 2), high = along({0, 0, 0}, number(1, 8) / 16, axis);
+    if (is_zero(cross(wide, high))) continue;
+    Points strip;
+    for (const auto& [across, up] : {std::array{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+      strip.push_back(along(along(at, across, wide), up, high));
+    faces.push_back(either_way(strip, random));
+  }
+  shuffle(faces, random);
+  posed.soup = soup_of(faces);
+  return posed;
+}
+
+/// A scene that nobody was told of, in one line.
+std::string text_of_scene(const Posed_scene& posed) {
+  const auto text = [](const Exact_point& p) {
+    return '(' + sightline::to_string(p[0]) + ',' + sightline::to_string(p[1]) + ',' + sightline::to_string(p[2]) + ')';
+  };
+  std::string all = "eye " + text(posed.eye);
+  for (Face_id face = 0; face < posed.soup.face_count(); ++face) {
+    all += ", " + face_name(face);
+    for (const Point_id p : posed.soup.loop(face)) all += ' ' + text(posed.soup.point(p));
+  }
+  return all;
+}
+
+Outcome check_lines(const Posed_scene& posed, Random& random) {
+  const Looked looked(posed);
+  const Flat_pieces flats = flat_pieces(looked.scene);
+  const Outcome edges = check_edges(looked, flats, posed.eye, random);
+  return edges.state == Outcome::State::failed ? edges : check_crossings(looked, flats, posed.eye, random);
 }
 
 /// The rays of a field around the eye: upright along an axis, or through three points of the scene.
@@ -302,10 +403,12 @@ Outcome check_field(const Posed_scene& posed, Random& random) {
 Check lines_check() {
   return {"lines", "visible and hidden parts of edges, and lines where faces cross, by brute force in rationals",
           [](const Posed_scene& posed, const Answer&, Random& random) {
-            const Looked looked(posed);
-            const Flat_pieces flats = flat_pieces(looked.scene);
-            const Outcome edges = check_edges(looked, flats, posed.eye, random);
-            return edges.state == Outcome::State::failed ? edges : check_crossings(looked, flats, posed.eye, random);
+            const Outcome outcome = check_lines(posed, random);
+            if (outcome.state == Outcome::State::failed || !random.chance(1, 4)) return outcome;
+            const Posed_scene pages = any_pages(random);
+            const Outcome of_pages = check_lines(pages, random);
+            if (of_pages.state != Outcome::State::failed) return outcome;
+            return Outcome::failed("of pages through a line, " + text_of_scene(pages) + ": " + of_pages.what);
           }};
 }
 

@@ -9,15 +9,21 @@
 #include <sightline/harness/generate/rays.h>
 #include <sightline/harness/laws/judge_laws.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/manners.h>
+#include <sightline/harness/laws/questions.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/sightline.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
+#include <memory>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace sightline::harness {
 
@@ -116,6 +122,41 @@ bool holds(const Loops& loops, const Exact_point& normal, const Exact_point& p) 
   return false;
 }
 
+/// The parts of a face joined: a hit begins where a part does that no earlier one reaches, from the first side in the
+/// order of their names that begins there, and ends where nothing goes on. Not by hits_of(), which is judged by it.
+void join(const std::vector<Face_hit>& parts, Ray_start start, std::vector<Face_hit>& hits) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const Rational& begin = parts[k].t;
+    Met_side side = parts[k].side;
+    bool is_begun = start == Ray_start::open && begin == 0;
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      const bool is_there = parts[j].t == begin;
+      is_begun = is_begun || (is_there ? j < k : parts[j].t < begin && begin <= parts[j].until);
+      if (is_there) side = std::min(side, parts[j].side);
+    }
+    if (is_begun) continue;
+    Rational end = parts[k].until;
+    for (bool grows = true; grows;) {
+      grows = false;
+      for (const Face_hit& part : parts)
+        if (begin <= part.t && part.t <= end && end < part.until) {
+          end = part.until;
+          grows = true;
+        }
+    }
+    hits.push_back({parts[k].face, side, begin, end});
+  }
+}
+
+/// Those of the least t.
+std::vector<Face_hit> nearest_of(const std::vector<Face_hit>& hits) {
+  std::vector<Face_hit> nearest;
+  for (const Face_hit& hit : hits)
+    if (std::none_of(hits.begin(), hits.end(), [&](const Face_hit& other) { return other.t < hit.t; }))
+      nearest.push_back(hit);
+  return nearest;
+}
+
 void add_parts(Face_id face, const Loops& loops, const Exact_ray& ray, std::vector<Face_hit>& parts) {
   const Exact_point normal = normal_of(loops);
   const Rational slope = dot(normal, ray.direction), height = dot(normal, minus(loops[0][0], ray.origin));
@@ -191,7 +232,7 @@ Check same_hits(
                 const std::vector<Face_hit> all = tracer.all(ray, start, counters), its = theirs(ray, start);
                 if (all != its) return wrong(all, its);
                 const std::vector<Face_hit> first = tracer.first(ray, start, counters);
-                if (first != only_first(its)) return wrong(first, only_first(its));
+                if (first != nearest_of(its)) return wrong(first, nearest_of(its));
               }
             return Outcome{};
           }};
@@ -209,8 +250,9 @@ Check by_tree() {
     made->tree = build_bsp(made->traits, options);
     return [made](const Exact_ray& ray, Ray_start start) {
       std::vector<Face_hit> all = all_hits(made->traits, made->tree, ray, start);
-      // Its own first hits, which it finds otherwise.
-      if (first_hits(made->traits, made->tree, ray, start) != only_first(all)) all.clear();
+      // Its own first hits, which it finds otherwise: if they are others, a hit of no face, which nobody else has.
+      if (first_hits(made->traits, made->tree, ray, start) != nearest_of(all))
+        all = {{~Face_id{0}, Met_side::along, Rational(-1), Rational(-1)}};
       return all;
     };
   });
@@ -238,17 +280,47 @@ Check from_beyond_doubles() {
                    loops_of_each_face, move_beyond_doubles);
 }
 
+/// All rays at once, at times more than threads take together, by up to four threads.
+Outcome ask_front_door(const Posed_scene& posed, const Answer&, Random& random) {
+  constexpr std::size_t many = 600;  // in blocks of 256
+  const Scene scene(posed.soup);
+  const Ray_tracer tracer(scene);
+  std::vector<Exact_ray> rays;
+  for (const generate::Ray_kind& kind : generate::ray_kinds()) rays.push_back(kind.make(posed.soup, random));
+  if (random.chance(1, 8))
+    for (std::size_t k = 0; rays.size() < many; ++k) rays.push_back(rays[k]);
+  random.shuffle(rays);
+  const Ray_start start = starts[random.below(2)];
+  const Model model(posed.soup);
+  const Asking asking{static_cast<int>(random.below(5)), {}, 3600};
+  const auto first = sightline::trace(model, rays, start, asking), all = trace_all(model, rays, start, asking);
+  if (first.size() != rays.size() || all.size() != rays.size())
+    return Outcome::failed("the front door does not answer for each ray");
+  std::vector<Double_ray> doubles;
+  Ray_counters counters;
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const auto expected = tracer.all(rays[k], start, counters);
+    if (all[k] != expected || first[k] != nearest_of(expected))
+      return Outcome::failed("ray " + text_of(rays[k]) + " in the front door's place " + std::to_string(k) + ": " +
+                             text_of(all[k]) + " is met, first " + text_of(first[k]) + "; asked alone " +
+                             text_of(expected));
+    if (const Double_ray ray = sightline::in_doubles(rays[k]); is_ray(ray)) doubles.push_back(ray);
+  }
+  const std::vector<Nearest_face> near = nearest(model, doubles, start, asking);
+  if (near.size() != doubles.size()) return Outcome::failed("the front door does not answer for each ray in doubles");
+  for (std::size_t k = 0; k < doubles.size(); ++k) {
+    const Ray_tracer::Nearest alone = tracer.nearest(doubles[k], start, counters);
+    const auto told = [](const auto& hit) { return std::tie(hit.face, hit.side, hit.tied, hit.low, hit.high); };
+    if (told(near[k]) != told(alone))
+      return Outcome::failed("ray " + text_of(doubles[k].exact()) + " in doubles, in the front door's place " +
+                             std::to_string(k) + ", meets another face than asked alone");
+  }
+  return {};
+}
+
 Check by_front_door() {
-  return same_hits("front_door", "the same hits from sightline/sightline.h", 1,
-                   [](const Posed_scene& posed, const Scene&) {
-                     return [model = Model(posed.soup)](const Exact_ray& ray, Ray_start start) {
-                       const Asking in_one_thread{1, {}};
-                       const std::vector<Face_hit> all = trace_all(model, {&ray, 1}, start, in_one_thread)[0];
-                       return sightline::trace(model, {&ray, 1}, start, in_one_thread)[0] == only_first(all)
-                                  ? all
-                                  : std::vector<Face_hit>();
-                     };
-                   });
+  return {"front_door", "the same hits from sightline/sightline.h, of many rays at once and by threads",
+          ask_front_door};
 }
 
 /// Rays in doubles, whose first hit is found without exact numbers as a rule.
@@ -340,21 +412,30 @@ std::vector<Face_hit> hits_by_definition(const Polygon_soup& soup, const Scene& 
   using namespace trace_subject;
   std::set<Face_id> kept, skew(scene.non_planar().begin(), scene.non_planar().end());
   for (const Piece& piece : scene.pieces()) kept.insert(piece.face);
-  std::vector<Face_hit> parts;
+  std::map<Face_id, std::vector<Face_hit>> parts;
   for (const Face_id face : kept) {
     if (skew.contains(face)) continue;
     Loops loops(soup.loop_count(face));
     for (std::size_t k = 0; k < loops.size(); ++k)
       for (const Point_id p : soup.loop(face, k)) loops[k].push_back(soup.point(p));
-    add_parts(face, loops, ray, parts);
+    add_parts(face, loops, ray, parts[face]);
   }
   for (const Piece& piece : scene.pieces()) {
     if (!skew.contains(piece.face)) continue;
     Loops loops(1);
     for (const Piece_corner& corner : scene.corners(piece)) loops[0].push_back(scene.position(corner.point));
-    add_parts(piece.face, loops, ray, parts);
+    add_parts(piece.face, loops, ray, parts[piece.face]);
   }
-  return hits_of(std::move(parts), start);
+  std::vector<Face_hit> hits;
+  for (const auto& [face, its] : parts) join(its, start, hits);
+  std::sort(hits.begin(), hits.end(),
+            [](const Face_hit& a, const Face_hit& b) { return a.t != b.t ? a.t < b.t : a.face < b.face; });
+  return hits;
+}
+
+std::vector<Face_hit> first_by_definition(const Polygon_soup& soup, const Scene& scene, const Exact_ray& ray,
+                                          Ray_start start) {
+  return trace_subject::nearest_of(hits_by_definition(soup, scene, ray, start));
 }
 
 Subject trace() {
@@ -368,6 +449,7 @@ Subject trace() {
   subject.checks.push_back(by_front_door());  // last: others keep their random choices
   subject.checks.push_back(judged_rays_check());
   subject.checks.push_back(from_beyond_doubles());
+  subject.checks.push_back(manners_check(questions_of_trace()));
   return subject;
 }
 

@@ -12,9 +12,12 @@ namespace sightline::harness {
 Subject trace();
 
 /// All hits of a ray by the definition: of each planar face that is kept, the loops of the file and the winding number
-/// of each part of the ray; of others, the triangles of the scene. Shares nothing with tracers but the words. Cost:
-/// O(faces), rationals. Exact: yes.
+/// of each part of the ray; of others, the triangles of the scene. Shares nothing with tracers but the words, nor with
+/// how they join parts. Cost: O(faces), rationals. Exact: yes.
 std::vector<Face_hit> hits_by_definition(const Polygon_soup& soup, const Scene& scene, const Exact_ray& ray,
                                          Ray_start start);
+/// Of these those of the least t.
+std::vector<Face_hit> first_by_definition(const Polygon_soup& soup, const Scene& scene, const Exact_ray& ray,
+                                          Ray_start start);
 
 }  // namespace sightline::harness

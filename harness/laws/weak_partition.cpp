@@ -116,18 +116,33 @@ bool are_together(const Light_partition& partition, const Place& p, const Place&
   });
 }
 
-/// That a point of a cell is found there, and any other point in a cell that has its light, or on a border; and points
-/// between which there is no curve in one cell.
-std::string flaw_of_places(const Occluders& occluders, const Weak_source& source, std::uint32_t piece,
-                           const Light_partition& partition) {
+/// Whether doubles do not tell on which side of a border's end a place is.
+bool is_beside_an_end(const Light_partition& partition, const Rational& x) {
+  return std::any_of(partition.borders.begin(), partition.borders.end(), [&](const Light_partition::Border& border) {
+    return std::any_of(border.x.begin(), border.x.end(),
+                       [&](const Bounded& end) { return exact(end.low) <= x && x <= exact(end.high); });
+  });
+}
+
+/// That a point of a cell is found there, and any other point in a cell that has its light, or on a border; that what
+/// is inside of the piece, on no curve and beside no end of a border is found; and points between which there is no
+/// curve in one cell.
+std::string flaw_of_places(const Scene& scene, const Occluders& occluders, const Weak_source& source,
+                           std::uint32_t piece, const Light_partition& partition) {
   constexpr std::size_t most_cells = 10;
   // Doubles do not tell where a sliver is.
   const auto is_sliver = [&](std::size_t cell) { return partition.cells[cell].area.low < 1e-6; };
+  const bool has_slivers = std::any_of(partition.cells.begin(), partition.cells.end(),
+                                       [&](const Light_partition::Cell& cell) { return cell.area.low < 1e-6; });
+  const generate::Points corners = weak_flats::polygons(scene)[piece];
+  const weak_flats::Level plane = weak_flats::level_of(corners);
   for (std::size_t c = 0; c < std::min(most_cells, partition.cells.size()); ++c) {
     const Place& at = partition.cells[c].at;
     const std::size_t found = partition.cell_at(at[0], at[1]);
     if (found != c && found != Light_partition::none && !is_sliver(c))
       return "a point of a cell is found in another one";
+    if (found == Light_partition::none && !is_sliver(c) && !is_beside_an_end(partition, at[0]))
+      return "a point of a cell is found in none";
     if (partition.point(at[0], at[1]) != point_of(partition, at)) return "a point of the chart is elsewhere in space";
   }
   for (const auto& [x, y] : {std::array{0, 1}, {2, 1}, {1, 0}, {1, 2}})  // halves of the chart's sides
@@ -145,7 +160,14 @@ std::string flaw_of_places(const Occluders& occluders, const Weak_source& source
     };
     const Rational x = number(-20, 1020), y = number(-20, 1020);
     const std::size_t found = partition.cell_at(x, y);
-    if (found == Light_partition::none) continue;
+    if (found == Light_partition::none) {
+      const bool is_on_a_curve = std::any_of(partition.curves.begin(), partition.curves.end(),
+                                             [&](const Plane_curve& curve) { return curve.sign(x, y) == 0; });
+      if (weak_flats::location(corners, plane, point_of(partition, {x, y})) > 0 && !is_on_a_curve && !has_slivers &&
+          !is_beside_an_end(partition, x))
+        return "a point of the piece is found in no cell";
+      continue;
+    }
     const Place other{x + number(-90, 90), y + number(-90, 90)};
     if (const std::size_t next = partition.cell_at(other[0], other[1]);
         next != found && next != Light_partition::none && !is_sliver(found) && !is_sliver(next) &&
@@ -264,7 +286,7 @@ Check partition_check() {
                 some_light |= cell.light == Light::lit || cell.light == Light::penumbra;
                 open |= cell.light == Light::undecided;
               }
-              const std::string flaw = open ? "" : flaw_of_places(occluders, source, piece, partition);
+              const std::string flaw = open ? "" : flaw_of_places(scene, occluders, source, piece, partition);
               if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
               pieces.push_back(partition);
             }

@@ -1,6 +1,7 @@
 #pragma once
 // Curves of degree two in a plane: of which lines they consist, and where they are over a place.
 
+#include "quadratic_roots.h"
 #include "support.h"
 
 #include <sightline/algorithms/weak_visibility/partition/plane_chart.h>
@@ -127,6 +128,27 @@ inline void conics(std::string_view bytes) {
     const std::optional<Quadratic_root> low = curve.height(x, false), high = curve.height(x, true);
     require(low.has_value() == (count > 0) && high.has_value() == (is_quadratic && count > 0),
             "a curve has as many places over one as its equation has roots");
+    require(!low || !high || (count == 1 ? *low == *high : *low < *high), "a curve's lower place is the lower one");
+    // Multiplied by the denominators, the equation is one of integers, whose roots other arithmetic finds.
+    Quadratic equation;
+    const std::array<Rational, 3> factors{constant, linear, Rational(c[5])};
+    Integer common = 1;
+    for (const Rational& factor : factors) common = lcm(common, factor.get_den());
+    int widest = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      equation.c[k] = Rational(factors[k] * common).get_num();
+      widest = std::max(widest, static_cast<int>(bit_length(equation.c[k])));
+    }
+    const unsigned long places = places_for(widest);
+    std::vector<Narrow> narrow = narrow_roots(equation, places);
+    std::sort(narrow.begin(), narrow.end(), [](const Narrow& a, const Narrow& b) { return a.low < b.low; });
+    const auto is_near = [&](const Quadratic_root& root, const Narrow& known) {
+      const auto end = [&](const Integer& n) { return Quadratic_root(n, 0, Integer(0), Integer(1) << places); };
+      return !(root < end(known.low - 1)) && !(end(known.low + 3) < root);
+    };
+    require(narrow.size() == static_cast<std::size_t>(count), "an equation has as many roots as its square says");
+    require((!low || is_near(*low, narrow.front())) && (!high || is_near(*high, narrow.back())),
+            "a curve is where its equation has roots");
     for (const auto& root : {low, high})
       if (root)
         if (const std::optional<Rational> at = root->rational())

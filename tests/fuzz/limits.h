@@ -72,10 +72,11 @@ inline void require_met(const Polygon_soup& soup, const Scene& scene, const Ray_
   Ray_counters counters;
   const std::vector<Face_hit> all = harness::hits_by_definition(soup, scene, ray, start);
   require(tracer.all(ray, start, counters) == all, "a ray meets what it does by the definition");
-  require(tracer.first(ray, start, counters) == only_first(all), "a ray meets first what it does by the definition");
+  require(tracer.first(ray, start, counters) == harness::first_by_definition(soup, scene, ray, start),
+          "a ray meets first what it does by the definition");
   const Double_ray doubles = in_doubles(ray);
   if (!is_ray(doubles)) return;
-  const std::vector<Face_hit> hits = only_first(harness::hits_by_definition(soup, scene, doubles.exact(), start));
+  const std::vector<Face_hit> hits = harness::first_by_definition(soup, scene, doubles.exact(), start);
   const Ray_tracer::Nearest near = tracer.nearest(doubles, start, counters);
   require((near.face == Ray_tracer::Nearest::nothing) == hits.empty(), "doubles meet something iff it is there");
   if (hits.empty()) return;

@@ -27,8 +27,9 @@ inline harness::Outcome asked(const harness::Check& check, const Posed_scene& sc
 inline void scene_laws(std::string_view bytes) {
   static const std::vector<harness::Subject> subjects{harness::order(), harness::graph(), harness::cutset()};
   static const std::set<std::string> meant{
-      "definition", "graph", "graph two-sided", "gmpq",   "points",   "first hit", "parts", "path", "face graph",
-      "region",     "rays",  "pixels",          "splits", "explicit", "empty"};
+      "definition", "graph",    "graph two-sided", "gmpq",         "points",  "first hit",
+      "parts",      "path",     "face graph",      "region",       "rays",    "pixels",
+      "splits",     "explicit", "empty",           "another_tree", "rounding"};
   Bytes from(bytes);
   Random random(from.word());
   Posed_scene scene;

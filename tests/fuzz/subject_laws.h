@@ -23,7 +23,8 @@
 
 namespace fuzz {
 
-/// The checks of a subject but those of laws of images, of time, which is the machine's, and of crowds, which take it.
+/// The checks of a subject but those of laws of images, of budgets, since time is the machine's, and of manners, for
+/// which others ask in threads. Crowds are among them.
 inline std::vector<harness::Check> own_checks(const harness::Subject& subject) {
   std::vector<harness::Check> own;
   for (const harness::Check& check : subject.checks) {
@@ -35,7 +36,8 @@ inline std::vector<harness::Check> own_checks(const harness::Subject& subject) {
   return own;
 }
 
-/// One of a subject's own checks, of a scene of a family.
+/// One of a subject's own checks, of a scene of a family. One that asks a share of the scenes is asked up to 24 times,
+/// and may then not have answered.
 inline void ask_a_law(const harness::Subject& subject, std::string_view bytes) {
   constexpr std::size_t most_faces = 24;
   Bytes from(bytes);
