@@ -347,6 +347,7 @@ def test_a_page_says_its_facts_notes_and_title(open_page):
         data["notes"] = ["Many were left out.", "All is rounded."]
         del data["polygons"]["exact"]
         data["scene"] = "a folder/of/cube.off"
+        data["frame"] = {"middle": [4500000.3, -5800000.3, 0.5], "size": 2}
 
     page = open_page("order", cube, "--eye=3,4,5", change=change)
     assert page.browser.title == page.text("h1") == "order: cube.off"
@@ -355,6 +356,9 @@ def test_a_page_says_its_facts_notes_and_title(open_page):
     assert not page.one("#trouble").is_displayed()
     page.js("sightline.select(0)")
     assert "Corners, rounded:" in page.one("#selection").text
+    said = [[float(x) for x in item.text.split(", ")] for item in page.all("#selection .exact li")]
+    frame = page.data["frame"]
+    assert said == [pytest.approx([m + frame["size"] * x for x, m in zip(p, frame["middle"])], abs=1e-6, rel=0) for p in corners_of(page)[:4]], "seven digits of the scene's size"
 
 
 def test_corners_beyond_two_hundred_are_counted(open_page, tmp_path):

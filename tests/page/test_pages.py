@@ -696,6 +696,27 @@ def test_a_source_out_of_all_proportion_leaves_the_scene_in_view(open_page):
     assert page.is_drawn()
 
 
+def test_what_is_beyond_a_page_keeps_its_direction(tmp_path):
+    def page_of(*source):
+        run("weak", corpus / "general" / "cube.off", "--from", " ".join(source), "--html", tmp_path / "page.html")
+        data = block_of(tmp_path / "page.html")
+        corners, texts, of = unpacked(data["polygons"]["corners"]), data["polygons"]["exact"]["texts"], unpacked(data["polygons"]["exact"]["corners"])
+        first = sum(unpacked(data["polygons"]["sizes"])[:data["base"]])
+        return data, list(zip(*[iter(corners[3 * first:])] * 3)), [texts[n] for n in of[first:]]
+
+    # All of it: a smaller one, nearer, and so are ends of sightlines.
+    data, corners, texts = page_of("1e9,1e7,0", "1e9,1e7,1e5", "1e9,1.1e7,1e5")
+    assert [(y / x, z / x) for x, y, z in corners] == [pytest.approx(p, abs=1e-6) for p in ((0.01, 0), (0.01, 1e-4), (0.011, 1e-4))]
+    ends = unpacked(data["sightlines"]["ends"])
+    assert ends and all(0.0099 < ends[i + 1] / ends[i] < 0.0111 for i in range(0, len(ends), 6))
+    assert texts[0] == "1000000000, 10000000, 0" and any("drawn nearer" in note for note in data["notes"])
+    # A part of it: that, where it is.
+    data, corners, texts = page_of("-1e9,-1e9,5", "-1e9,1e9,5", "1e9,1e9,5", "1e9,-1e9,5")
+    height = (5 - data["frame"]["middle"][2]) / data["frame"]["size"]
+    assert sorted(corners) == [pytest.approx((x, y, height)) for x in (-1e6, 1e6) for y in (-1e6, 1e6)]
+    assert len(texts) == 4 and all(text.endswith(", 5") for text in texts) and any("as far as that" in note for note in data["notes"])
+
+
 def test_outlines_are_the_sides_of_polygons_and_nothing_else(open_page, tmp_path):
     """Of a triangle, a square and a heptagon every side is drawn, and nothing across them, where they are fans of triangles."""
     heptagon = [(30, 0), (40, 0), (46, 8), (44, 18), (35, 22), (26, 18), (24, 8)]
@@ -786,20 +807,24 @@ def test_a_painter_needs_an_order_and_a_depth_buffer_does_not(open_page):
 def test_a_page_of_many_corners_rounds_them(open_page, tmp_path, size):
     scene = tmp_path / "terrain.off"
     run("generate", "terrain", "--size", size, "--out", scene)
-    page = open_page("cutset", scene, "--orbit", 2)
-    assert "exact" not in page.data["polygons"] and ("step" in page.data["polygons"]) == (size == 24000)
+    in_steps = size == 24000  # which are those of the scene, however far a source is
+    page = open_page("weak", scene, "--from", "0,0,10000 1,0,10000 0,1,10000", "--method", "sample", "--rays", 1) if in_steps else open_page("cutset", scene, "--orbit", 2)
+    assert "exact" not in page.data["polygons"] and ("step" in page.data["polygons"]) == in_steps
     words = scene.read_text().split()
     points, faces = int(words[1]), int(words[2])
     place = lambda p: [float(x) for x in words[4 + 3 * p:7 + 3 * p]]
     within = 2**-15 * page.data["frame"]["size"]
     for k in (0, faces // 2, faces - 1):
         page.js("sightline.select(arguments[0])", k)
-        assert page.text("#selected-name") in (f"face {k}, on-view", f"face {k}, off-view")
+        assert page.text("#selected-name") in ((f"face {k}: visible", f"face {k}: hidden") if in_steps else (f"face {k}, on-view", f"face {k}, off-view"))
         said = [[float(x) for x in item.text.split(", ")] for item in page.all("#selection .exact li")]
         loop = [int(w) for w in words[4 + 3 * points + 4 * k + 1:4 + 3 * points + 4 * k + 4]]
         assert len(said) == 3
         for p in loop:
             assert any(all(abs(a - b) <= within for a, b in zip(place(p), q)) for q in said), (k, p, said)
+    if in_steps:
+        page.js("sightline.select(arguments[0])", faces)
+        assert [[float(x) for x in item.text.split(", ")] for item in page.all("#selection .exact li")] == [pytest.approx(p, abs=1e-3) for p in ([0, 0, 1e4], [1, 0, 1e4], [0, 1, 1e4])]
 
 
 def wrong_faces(page, rows):
