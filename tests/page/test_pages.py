@@ -385,11 +385,21 @@ def test_a_lost_context_is_found_again(open_page, town):
     drawn = page.picture()[0]
     page.browser.execute_async_script("""
         const done = arguments[0], view = document.getElementById('view'), lose = view.getContext('webgl2').getExtension('WEBGL_lose_context');
-        view.addEventListener('webglcontextlost', () => setTimeout(() => lose.restoreContext(), 50));
+        const paint = () => { for (let i = 0; i < 2; ++i) document.querySelector('.legend input').click(); };
+        view.addEventListener('webglcontextlost', () => setTimeout(() => { paint(); lose.restoreContext(); }, 50));
         view.addEventListener('webglcontextrestored', () => setTimeout(done, 300));
         lose.loseContext();
         """)
     assert abs(page.picture()[0] - drawn) < 0.01
+    # Each time the sphere is drawn it leaves nothing.
+    left = page.js("""
+        const gl = document.getElementById('view').getContext('webgl2'), create = gl.createShader.bind(gl), made = [];
+        gl.createShader = type => (made.push(create(type)), made.at(-1));
+        document.querySelector('.legend input').click();
+        sightline.draw();  // with other programs
+        return [made.length, made.filter(shader => gl.isShader(shader)).length];
+        """)
+    assert left == [2, 0]
 
 
 @pytest.mark.parametrize("words", [["order", eye], ["see", eye], ["weak", "--from-face", 0]])
@@ -669,6 +679,24 @@ def test_lines_from_behind_the_eye_are_drawn_where_they_are(open_page):
         return [lines, points, dark];
         """)
     assert lines > 10 and dark > 0.95 * points, (lines, points, dark)
+    # A click on what is before the eye finds the edge.
+    found = page.js("""
+        const found = [], view = document.getElementById('view'), isInside = ([x, y]) => Math.min(x, y, view.clientWidth - x, view.clientHeight - y) > 60;
+        for (let turn = 0; turn < 24; ++turn) {
+          const [yaw, pitch] = [sightline.camera.yaw, sightline.camera.pitch] = [0.3 + turn * Math.PI / 4, [-0.5, 0.1, 0.5][turn % 3]];
+          for (const line of sightline.linesOf('visible'))
+            for (let t = 0.02; t < 1 && !sightline.onCanvas(line.from) && found.length <= turn; t += 0.02) {
+              const at = sightline.onCanvas(line.from.map((x, k) => x + t * (line.to[k] - x)));
+              if (at && isInside(at)) found.push([yaw, pitch, ...at, line.text]);
+            }
+        }
+        return found;
+        """)
+    assert len(found) > 2
+    for yaw, pitch, x, y, text in found[:3]:
+        page.js("[sightline.camera.yaw, sightline.camera.pitch] = arguments[0]", [yaw, pitch])
+        page.click_at(x, y)
+        assert text in page.text("#edge-parts")
 
 
 def test_the_unrolled_sphere_has_the_colour_of_what_is_met_there(open_page):
@@ -1315,12 +1343,17 @@ def test_a_source_far_from_the_scene_is_drawn(open_page):
 
 
 def test_faces_that_are_left_out_are_not_taken_for_others(open_page):
-    page = open_page("graph", corpus / "general" / "three_bars.off", change=lambda data: without(data, {0}))
     arcs = json.loads(run("graph", corpus / "general" / "three_bars.off", "--arcs", "--json", "-"))["result"]["arc_list"]
-    page.js("sightline.select(0)")
-    assert page.text("#selected-name").startswith("face 1, ")
+    ends = {k: [[a[0][0] for a in arcs if a[1][0] == k], [a[1][0] for a in arcs if a[0][0] == k]] for k in range(18)}
+    chosen = max(ends, key=lambda k: len(ends[k][0]))
+    left = {*ends[chosen][0][:2]}
+    assert len(left) == 2
+    page = open_page("graph", corpus / "general" / "three_bars.off", change=lambda data: without(data, left))
+    page.js("sightline.select(arguments[0])", chosen - sum(k < chosen for k in left))
+    assert page.text("#selected-name").startswith(f"face {chosen}, ")
     lists = [[b.text for b in part.find_elements("css selector", "button")] for part in page.all("#arcs ul.list")]
-    assert lists == [[f"face {a[0][0]}" for a in arcs if a[1][0] == 1 and a[0][0] > 0], [f"face {a[1][0]}" for a in arcs if a[0][0] == 1 and a[1][0] > 0]]
+    assert lists == [[f"face {k}" for k in list_ if k not in left] for list_ in ends[chosen]]
+    assert [int(p.text.split(": ")[1]) for p in page.all("#arcs p.row")] == [len(list_) for list_ in ends[chosen]], "those that are not drawn count"
 
 
 def test_cells_show_what_looks_into_them(open_page):
