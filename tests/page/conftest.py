@@ -139,7 +139,9 @@ def browser():
     options = Options()
     options.binary_location = os.environ["SIGHTLINE_CHROMIUM"]
     for word in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                 "--window-size=1100,760", "--disable-extensions"):
+                 "--window-size=1100,760", "--disable-extensions",
+                 # A window put together without the software renderer, and borders of pixels: drawing is half of what the tests take.
+                 "--disable-gpu-compositing", "--webgl-antialiasing-mode=none"):
         options.add_argument(word)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     driver = webdriver.Chrome(options=options, service=Service(os.environ["SIGHTLINE_CHROMEDRIVER"]))
