@@ -361,7 +361,7 @@ def test_a_page_says_its_facts_notes_and_title(open_page):
     page = open_page("order", cube, "--eye=3,4,5", change=change)
     assert page.browser.title == page.text("h1") == "order: cube.off"
     assert [[cell.text for cell in row.find_elements("css selector", "th, td")] for row in page.all("#panel > table tr")] == page.data["facts"]
-    assert [note.text for note in page.all("#panel > .note")] == page.data["notes"]
+    assert page.texts("#panel > .note") == page.data["notes"]
     assert not page.one("#trouble").is_displayed()
     page.js("sightline.select(0)")
     assert "Corners, rounded:" in page.one("#selection").text

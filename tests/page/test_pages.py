@@ -65,7 +65,7 @@ def test_a_click_says_which_face_and_where_exactly(open_page, town):
     assert page.js("return sightline.selected") == last
     fragments = json.loads(run("order", town, eye, "--json", "-"))["result"]["fragments"]
     assert page.text("#selected-name").startswith(f"face {fragments[last]['face']}, ")
-    corners = [item.text for item in page.all("#selection .exact li")]
+    corners = page.texts("#selection .exact li")
     assert corners == [", ".join(vertex) for vertex in fragments[last]["vertices"]]
 
 
@@ -104,7 +104,7 @@ def test_a_graph_shows_cycles_and_the_arcs_of_a_face(open_page):
     scene = corpus / "general" / "three_bars.off"
     page = open_page("graph", scene)
     assert page.is_drawn()
-    assert [item.text for item in page.all("section ul.list button")] == ["component 1: 3 faces"]
+    assert page.texts("section ul.list button") == ["component 1: 3 faces"]
     k = first_seen(page, None)
     page.click_on(k)
     assert page.js("return sightline.selected") == k
@@ -217,7 +217,7 @@ def test_weak_visibility_shows_a_sightline_or_a_proof(open_page):
     page.click_on(k)
     face = int(page.text("#selected-name").split()[1].rstrip(":,"))
     assert face in result["visible"]
-    ends = [item.text for item in page.all("#sightline li")]
+    ends = page.texts("#sightline li")
     assert len(ends) == 2 and ends[0].startswith("from ") and ends[1].startswith("to ") and "rounded" not in ends[0]
     # A hidden face: its proof ends in leaves, each of which says why.
     hidden = next(k for k in range(page.data["polygons"]["count"]) if group_of(page, k) == "hidden" and page.js(
@@ -228,7 +228,7 @@ def test_weak_visibility_shows_a_sightline_or_a_proof(open_page):
         if not closed:
             break
         page.js("arguments[0].click()", closed[0])
-    texts = [b.text for b in page.all("#proof ul.tree button")]
+    texts = page.texts("#proof ul.tree button")
     inner = [t for t in texts if t.endswith("…")]
     assert len(texts) == 2 * len(inner) + 1, "a tree of two parts each"
     assert any("blocked by face" in t for t in texts), hidden
@@ -244,11 +244,16 @@ def test_a_path_is_played(open_page, town):
         assert page.text("#viewpoint") == f"viewpoint {n}: " + ", ".join(frames[n - 1]["eye"])
         assert page.js("return sightline.lines('cut')") == frames[n - 1]["cut_edges"], "the cut is drawn"
         on, before = set(frames[n - 1]["on_view"]), set(frames[max(0, n - 2)]["on_view"])
-        for k in range(0, page.data["polygons"]["count"], 7):
-            page.js("sightline.select(arguments[0])", k)
-            face = int(page.text("#selected-name").split()[1].rstrip(":,"))
-            assert page.text("#selected-name").endswith("on-view" if face in on else "off-view")
-            r, g, b = looks_of(page, k)
+        some = range(0, page.data["polygons"]["count"], 7)
+        said = page.js("""
+            return arguments[0].map(k => {
+              sightline.select(k);
+              return [document.getElementById('selected-name').textContent, ...sightline.looks.slice(4 * k, 4 * k + 3)];
+            });
+            """, [*some])
+        for k, (name, r, g, b) in zip(some, said):
+            face = int(name.split()[1].rstrip(":,"))
+            assert name.endswith("on-view" if face in on else "off-view")
             assert (max(r, g, b) - min(r, g, b) < 20) == (face not in on), (n, k)
             assert face not in on or (g > r) == (face not in before), "green where it has just become so"
     page.slide(1)
@@ -486,7 +491,7 @@ def test_the_pairs_that_an_order_in_doubles_has_wrong_are_marked_and_named(open_
     for face in sorted(covered | over):
         page.js("sightline.select(arguments[0])", faces.index(face))
         for part, wanted in (("#over", sorted(b for a, b in pairs if a == face)), ("#under", sorted(a for a, b in pairs if b == face))):
-            assert [b.text for b in page.all(f"{part} button")] == [f"face {other}" for other in wanted]
+            assert page.texts(f"{part} button") == [f"face {other}" for other in wanted]
     for face in sorted(covered | over):
         page.js("sightline.select(arguments[0])", faces.index(face))
         other = page.one("#over button, #under button")
@@ -860,7 +865,7 @@ def wrong_faces(page, rows):
     wrong = 0
     for row, item, method in zip(rows, page.all("#methods button"), page.data["methods"], strict=True):
         item.click()
-        assert [one.text for one in page.all("#methods [aria-pressed=true]")] == [item.text]
+        assert page.texts("#methods [aria-pressed=true]") == [item.text]
         hidden, visible = row["errors"]["wrongly_hidden"], row["errors"]["wrongly_visible"]
         assert page.text("#method") == f"{method['name']}: {hidden} faces are missing, {visible} too many"
         wrong += hidden + visible
@@ -880,11 +885,12 @@ def test_a_comparison_shows_the_faces_that_each_has_wrong(open_page, tmp_path):
     scene = tmp_path / "leaves.qoff"
     run("generate", "leaves", "--seed", 1, "--ulps", 0, "--out", scene, "--query", tmp_path / "leaves.json")
     words = ["compare", scene, "see", "--eye=" + ",".join(json.loads((tmp_path / "leaves.json").read_text())["eye"]), "--sizes", 16, "--bits", 16]
-    page = open_page(*words)
+    page = open_page(*words, "--json", tmp_path / "said.json")
     assert page.is_drawn(0.005)  # leaves are thin
-    rows = json.loads(run(*words, "--json", "-"))["result"]["rows"]
-    assert [item.text.split(": ")[0] for item in page.all("#methods button")] == [method["name"] for method in page.data["methods"]]
-    assert all(f"{1e-6 * method['peak_bytes']:.1f} MB" in item.text for item, method in zip(page.all("#methods button"), page.data["methods"]))
+    rows = json.loads((tmp_path / "said.json").read_text())["result"]["rows"]
+    said = page.texts("#methods button")
+    assert [text.split(": ")[0] for text in said] == [method["name"] for method in page.data["methods"]]
+    assert all(f"{1e-6 * method['peak_bytes']:.1f} MB" in text for text, method in zip(said, page.data["methods"]))
     assert page.text("#method") == "partition, exact: 0 faces are missing, 0 too many"
     assert wrong_faces(page, rows) > 0, "a scene that something gets wrong"
     # Where no list of faces is said, the table alone.
@@ -892,23 +898,29 @@ def test_a_comparison_shows_the_faces_that_each_has_wrong(open_page, tmp_path):
     assert page.is_drawn() and len(page.all("#methods button")) == len(page.data["methods"]) > 0
 
 
-def test_a_comparison_of_weak_visibility_shows_the_faces_that_each_has_wrong(open_page):
-    words = ["compare", corpus / "general" / "two_rooms.off", "weak", "--from-face", 0, "--rays", 200]
-    page = open_page(*words)
+def test_a_comparison_of_weak_visibility_shows_the_faces_that_each_has_wrong(open_page, tmp_path):
+    page = open_page("compare", corpus / "general" / "two_rooms.off", "weak", "--from-face", 0, "--rays", 200, "--json", tmp_path / "said.json")
     assert page.is_drawn()
-    rows = json.loads(run(*words, "--json", "-"))["result"]["rows"]
+    rows = json.loads((tmp_path / "said.json").read_text())["result"]["rows"]
     assert wrong_faces(page, rows) == sum(abs(row["visible"] - rows[0]["visible"]) for row in rows) > 0
 
 
 @pytest.mark.parametrize("words", [["order", "--eye", "1,1,2"], ["render", "--eye", "1,1,2"], ["pvs", "--rays", 200]])
-def test_a_comparison_says_the_errors_of_each(open_page, words):
+def test_a_comparison_says_the_errors_of_each(open_page, tmp_path, words):
     words = ["compare", corpus / "general" / "two_rooms.off", *words]
-    page = open_page(*words)
+    page = open_page(*words, "--json", tmp_path / "said.json")
     assert page.is_drawn()
-    rows = json.loads(run(*words, "--json", "-"))["result"]["rows"]
+    rows = json.loads((tmp_path / "said.json").read_text())["result"]["rows"]
+    clicked = page.js("""
+        const textOf = one => one.innerText;
+        return [...document.querySelectorAll('#methods button')].map(item => {
+          item.click();
+          return [textOf(item), textOf(document.getElementById('method')), [...document.querySelectorAll('#methods [aria-pressed=true]')].map(textOf)];
+        });
+        """)
     told = 0
-    for row, item, method in zip(rows, page.all("#methods button"), page.data["methods"], strict=True):
-        name, said = item.text.split(": ")
+    for row, (text, shown, pressed), method in zip(rows, clicked, page.data["methods"], strict=True):
+        name, said = text.split(": ")
         assert name == method["name"] and name.startswith(f"{row['method']}, {row['kernel']}")
         cost, _, errors = said.partition("; ")
         assert re.fullmatch(r"[\d.e-]+ s, [\d.]+ MB", cost), cost
@@ -917,9 +929,7 @@ def test_a_comparison_says_the_errors_of_each(open_page, words):
         found = {key: float(value) for key, value in (error.rsplit(" ", 1) for error in filter(None, errors.split(", ")))}
         assert found == pytest.approx(wanted, rel=0.01), name
         told += len(found)
-        item.click()
-        assert page.text("#method") == item.text
-        assert [one.text for one in page.all("#methods [aria-pressed=true]")] == [item.text]
+        assert shown == text and pressed == [text]
     assert told > 2, "a scene that something gets wrong"
 
 
@@ -1029,7 +1039,7 @@ def test_a_proof_is_the_tree_that_the_page_holds(open_page):
     assert {proofs["kinds"][step] for _, step, _ in nodes} == {0, 2, 3, 4, 5, 6}, "some of each, and planes in first parts"
     page.js("sightline.select(arguments[0])", k)
     to_depth = lambda node, depth: [node[0], *(text for part in node[2] if depth > 0 for text in to_depth(part, depth - 1))]
-    shown_nodes = lambda: [b.text for b in page.all("#proof ul.tree button")]
+    shown_nodes = lambda: page.texts("#proof ul.tree button")
     assert shown_nodes() == [text for tree in trees for text in to_depth(tree, 2)], "open to its second level"
     blockers = set()
     for i, tree, said in zip(own, trees, page.all("#proof > p:not(.faint)"), strict=True):
@@ -1070,7 +1080,7 @@ def test_sightlines_go_from_a_source_to_a_face(open_page):
     texts = page.data["sightlines"]["texts"]
     for i, k in list(enumerate(page.numbers("sightlines", "pieces")))[::20]:
         page.js("sightline.select(arguments[0])", k)
-        assert [item.text for item in page.all("#sightline li")] == ["from " + texts[2 * i], "to " + texts[2 * i + 1]]
+        assert page.texts("#sightline li") == ["from " + texts[2 * i], "to " + texts[2 * i + 1]]
         assert page.text("#sightline p") == "Seen from source 8 along the line"
         assert ends_of(page, "sightline")[0] == lines[i] and page.js("return sightline.lines('sightline')") == 7
     box = next(label for label in page.all("#panel label") if label.text == "all of them")
@@ -1389,7 +1399,7 @@ def test_of_a_face_the_cells_that_see_it(open_page):
         assert page.text("#selected-name") == f"face {rooms[i]}, {name}" and has_colour(page, rooms[i], colour)
         by = [cell["cell"] for cell in cells if rooms[i] in unpacked(cell["visible"])]
         assert page.text("#seen-from p") == f"Seen from {len(by)} of {len(cells)} cells:"
-        assert [b.text for b in page.all("#seen-from button")] == [f"cell {cell}" for cell in by]
+        assert page.texts("#seen-from button") == [f"cell {cell}" for cell in by]
     assert ends_of(page, "cell") == segments_of(unpacked(cells[1]["walls"]))
     assert shown(page) == sorted(rooms)
     next(label for label in page.all("#panel label") if "no cell" in label.text).click()
