@@ -81,7 +81,7 @@ Json view_of(const std::string& command, const std::string& question, const Poly
 
   // 1. Faces, the first group that holds one; and the source, after all of them.
   const std::vector<Face_group> groups = groups_of_wrong(query.question, grade, why, words);
-  for (const Face_group& group : groups) page.add_group(group.name, group.role);
+  for (const Face_group& group : groups) page.add_group(group.name, group.role, true);
   page.add_group(grade.wrong() ? "right" : "faces", grade.wrong() ? "face" : "one a face");
   page.add_pieces(scene, [&](std::uint32_t piece) {
     const Face_id face = scene.pieces()[piece].face;

@@ -67,28 +67,29 @@ commands.graph = () => {
     return others;
   };
   const goTo = n => { if (polygons.place(n) !== undefined) select(polygons.place(n)); };
-  let inFront = new Set(), behind = new Set(), mode = cycles.length > 0 ? 'cycles' : 'priority', chosen = -1;
+  let inFront = new Set(), behind = new Set();  // pieces
+  let mode = cycles.length > 0 ? 'cycles' : 'priority', chosen = -1;
   const findArcs = k => {
     inFront = new Set(), behind = new Set();
     const n = polygons.number(k);
     if (list) for (let i = 0; i < list.length; i += 2) {
-      if (list[i + 1] === n) inFront.add(polygons.place(list[i]));
-      if (list[i] === n) behind.add(polygons.place(list[i + 1]));
+      if (list[i + 1] === n) inFront.add(list[i]);
+      if (list[i] === n) behind.add(list[i + 1]);
     }
     if (matrix) for (let i = 0; i < component.length; ++i) {
-      if (bit(matrix, i * component.length + n)) inFront.add(polygons.place(i));
-      if (bit(matrix, n * component.length + i)) behind.add(polygons.place(i));
+      if (bit(matrix, i * component.length + n)) inFront.add(i);
+      if (bit(matrix, n * component.length + i)) behind.add(i);
     }
   };
   return {
     repaints: true,
     colourOf(k) {
-      const c = component[polygons.number(k)];
+      const n = polygons.number(k), c = component[n];
       if (doubles.isShown()) return k === selected ? [250, 250, 245] : doubles.colourOf(k, false);
       if (selected >= 0 && (list || matrix)) {
         if (k === selected) return [250, 250, 245];
-        if (inFront.has(k) && behind.has(k)) return palette.open;
-        return inFront.has(k) ? palette.front : behind.has(k) ? palette.source : palette.face;
+        if (inFront.has(n) && behind.has(n)) return palette.open;
+        return inFront.has(n) ? palette.front : behind.has(n) ? palette.source : palette.face;
       }
       if (c === undefined) return palette.face;
       if (mode === 'priority') return scaleColour(c / count);
@@ -124,9 +125,9 @@ commands.graph = () => {
       if (k < 0) return null;
       if (!list && !matrix) return element('p', {className: 'faint'}, 'Arcs are not known: --arcs writes them out.');
       findArcs(k);
-      const names = set => [...set].filter(i => i !== undefined);
+      const drawn = set => [...set].map(polygons.place).filter(i => i !== undefined);
       const part = (title, set, colour) => {
-        return [element('p', {className: 'row'}, swatchOf(colour), `${title}: ${set.size}`), listOf(names(set), faceName, i => select(i), 100)];
+        return [element('p', {className: 'row'}, swatchOf(colour), `${title}: ${set.size}`), listOf(drawn(set), faceName, i => select(i), 100)];
       };
       return element('div', {id: 'arcs'}, ...part('may be in front of it', inFront, palette.front), ...part('may be behind it', behind, palette.source),
         ...[wrongWith('arcs-missing', 'with these plain doubles lack an arc', [...missing], nameOfPiece, goTo), wrongWith('arcs-extra', 'with these plain doubles have an arc that is none', [...extra], nameOfPiece, goTo)].filter(Boolean),
@@ -275,7 +276,7 @@ commands.see = () => {
     },
     /// Drawn again where colours change.
     sphereChanged() {
-      if (!sphere || !faces) return;
+      if (!sphere || !faces || gl.isContextLost()) return;
       const ahead = minus(bounds.middle, eyePlace);
       middle = Math.atan2(ahead[1], ahead[0]);
       plain = new ImageData(unrolled(eyePlace, middle, width, height), width, height);

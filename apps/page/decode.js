@@ -16,16 +16,19 @@ function readPolygons() {
   const from = data.polygons, sizes = unpacked(from.sizes), count = from.count;
   const first = new Uint32Array(count + 1);
   for (let k = 0; k < count; ++k) first[k + 1] = first[k] + sizes[k];
+  const faces = unpacked(from.faces);
   let corners = unpacked(from.corners);
   if (from.step) {
-    const steps = corners;
-    corners = new Float32Array(steps.length);
-    for (let i = 0; i < steps.length; ++i) corners[i] = from.from[i % 3] + from.step[i % 3] * steps[i];
+    const steps = corners, others = from.others ? unpacked(from.others) : null;
+    corners = new Float32Array(3 * first[count]);
+    let s = 0, o = 0;
+    for (let k = 0; k < count; ++k)
+      for (let i = 3 * first[k]; i < 3 * first[k + 1]; ++i) corners[i] = others && faces[k] === noFace ? others[o++] : from.from[i % 3] + from.step[i % 3] * steps[s++];
   }
   const number = from.numbers ? unpacked(from.numbers) : null;
   const placeOf = number ? new Map(Array.from(number, (n, k) => [n, k])) : null;
   return {
-    count, of: from.of, first, corners, faces: unpacked(from.faces),
+    count, of: from.of, first, corners, faces,
     groups: from.groups ? unpacked(from.groups) : new Uint8Array(count),
     exact: from.exact ? {texts: from.exact.texts, corners: unpacked(from.exact.corners)} : null,
     /// The place among all of the k-th here; and back: undefined where it is not drawn.
@@ -35,8 +38,9 @@ function readPolygons() {
 }
 const polygons = readPolygons();
 
-/// Coordinates of the file, rounded as the page's places are.
+/// Coordinates of the file, rounded as the page's places are: seven digits of the scene's size, before them those of where it is.
 function rounded(place) {
   const {middle, size} = data.frame;
-  return place.map((x, k) => Number((middle[k] + size * x).toPrecision(7))).join(', ');
+  const digits = k => 7 + Math.max(0, Math.ceil(Math.log10(Math.abs(middle[k]) / size)) || 0);
+  return place.map((x, k) => Number((middle[k] + size * x).toPrecision(Math.min(17, digits(k))))).join(', ');
 }

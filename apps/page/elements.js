@@ -69,8 +69,8 @@ function player(label, least, most, value, act, seconds = 12) {
     const each = Math.max(1 / 60, Math.min(0.5, seconds / Math.max(1, most - least)));
     const rate = Math.max(1 / each, (most - least) / seconds);
     play.textContent = 'Pause';
-    const step = now => {
-      const v = Math.min(most, from + Math.floor((now - begun) / 1000 * rate));
+    const step = now => {  // a first frame may be stamped before it began
+      const v = Math.max(from, Math.min(most, from + Math.floor((now - begun) / 1000 * rate)));
       if (v !== Number(slider.value)) set(v);
       if (v >= most) return stop();
       playing = requestAnimationFrame(step);

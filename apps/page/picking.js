@@ -24,14 +24,22 @@ function pick(ray) {
   return found < 0 ? null : {polygon: found, place: add(ray.from, times(at, ray.along))};
 }
 
+/// The ends of a line on the canvas, of what is before the one who looks; or null.
+function endsOnCanvas(line, frame) {
+  const near = 1.001 * frame.near, [a, b] = [line.from, line.to].map(p => dot(minus(p, frame.place), frame.ahead));
+  if (a < near && b < near) return null;
+  const end = (p, q, d, e) => onCanvas(d < near ? add(p, times((near - d) / (e - d), minus(q, p))) : p, frame);
+  const ends = [end(line.from, line.to, a, b), end(line.to, line.from, b, a)];
+  return ends[0] && ends[1] ? ends : null;
+}
 /// The line of a list within so many pixels of a place on the canvas, or -1.
 function pickLine(list, x, y, within) {
   const frame = cameraFrame();
   let best = within, found = -1;
   list.forEach((line, i) => {
-    const a = onCanvas(line.from, frame), b = onCanvas(line.to, frame);
-    if (!a || !b) return;
-    const dx = b[0] - a[0], dy = b[1] - a[1], l = dx * dx + dy * dy;
+    const ends = endsOnCanvas(line, frame);
+    if (!ends) return;
+    const [a, b] = ends, dx = b[0] - a[0], dy = b[1] - a[1], l = dx * dx + dy * dy;
     const t = l > 0 ? Math.max(0, Math.min(1, ((x - a[0]) * dx + (y - a[1]) * dy) / l)) : 0;
     const d = Math.hypot(a[0] + t * dx - x, a[1] + t * dy - y) + (line.dash ? 0.5 : 0);
     if (d < best) best = d, found = i;

@@ -103,11 +103,22 @@ Page::Page(const std::string& command, const Scene& scene, std::size_t triangles
   size_ = above + 1 > below ? Rational(power) : Rational(1, power);
 }
 
+std::array<double, 3> Page::near_place(const Exact_point& p, double farthest) const {
+  Exact_point from_middle;
+  std::array<double, 3> at{};
+  Rational most = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    from_middle[k] = (p[k] - middle_[k]) / size_;
+    at[k] = nearest_double(from_middle[k]);
+  }
+  if (std::all_of(at.begin(), at.end(), [&](double x) { return std::fabs(x) <= farthest; })) return at;
+  for (const Rational& x : {from_middle[0], from_middle[1], from_middle[2]}) most = std::max(most, Rational(abs(x)));
+  for (std::size_t k = 0; k < 3; ++k) at[k] = nearest_double(Rational(from_middle[k] * Rational(farthest) / most));
+  return at;
+}
+
 void Page::append_place(std::vector<float>& to, const Exact_point& p) const {
-  constexpr double farthest = 1e6;  // sources and viewpoints may be out of all proportion
-  for (std::size_t k = 0; k < 3; ++k)
-    to.push_back(
-        static_cast<float>(std::clamp(nearest_double(Rational((p[k] - middle_[k]) / size_)), -farthest, farthest)));
+  for (const double x : near_place(p, farthest_drawn)) to.push_back(static_cast<float>(x));
 }
 
 void Page::append_sides(std::vector<float>& to, const std::vector<Exact_point>& polygon) const {
@@ -117,15 +128,7 @@ void Page::append_sides(std::vector<float>& to, const std::vector<Exact_point>& 
   }
 }
 
-Json Page::place(const Exact_point& p) const {
-  Json at = Json::array();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = nearest_double(Rational((p[k] - middle_[k]) / size_));
-    if (!(std::fabs(x) < 1e30)) return nullptr;
-    at.push_back(x);
-  }
-  return at;
-}
+Json Page::place(const Exact_point& p) const { return near_place(p, 1e30); }
 
 std::string Page::text(const Exact_point& p) {
   return to_string(p[0]) + ", " + to_string(p[1]) + ", " + to_string(p[2]);
@@ -133,16 +136,62 @@ std::string Page::text(const Exact_point& p) {
 
 void Page::set_eye(const Exact_point& eye) { more_["eye"] = {{"place", place(eye)}, {"exact", text(eye)}}; }
 
+std::vector<Exact_point> Page::clipped(std::vector<Exact_point> polygon) const {
+  const Rational most = Rational(farthest_drawn) * size_;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const int side : {1, -1}) {
+      const auto within = [&](const Exact_point& p) { return Rational(most - side * (p[k] - middle_[k])); };
+      std::vector<Exact_point> kept;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Exact_point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        const Rational a = within(p), b = within(q);
+        if (sgn(a) >= 0) kept.push_back(p);
+        if (sgn(a) * sgn(b) >= 0) continue;
+        kept.emplace_back();
+        for (std::size_t l = 0; l < 3; ++l) kept.back()[l] = p[l] + (q[l] - p[l]) * a / (a - b);
+      }
+      polygon = std::move(kept);
+    }
+  return polygon;
+}
+
+std::vector<Exact_point> Page::brought_near(std::vector<Exact_point> polygon) const {
+  Rational most = 0;
+  for (const Exact_point& p : polygon)
+    for (std::size_t k = 0; k < 3; ++k) most = std::max(most, Rational(abs(p[k] - middle_[k])));
+  for (Exact_point& p : polygon)
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = middle_[k] + (p[k] - middle_[k]) * size_ * Rational(farthest_drawn) / most;
+  return polygon;
+}
+
 void Page::add_polygon(std::uint32_t face, const std::vector<Exact_point>& corners, std::uint32_t group) {
+  const auto is_far = [&](const Exact_point& p) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (abs(p[k] - middle_[k]) > size_ * Rational(farthest_drawn)) return true;
+    return false;
+  };
+  // What has a face is in the scene's box.
+  if (face != no_face || std::none_of(corners.begin(), corners.end(), is_far))
+    return add_polygon(face, corners, corners, group);
+  const std::vector<Exact_point> within = clipped(corners);
+  (within.size() < 3 ? is_brought_near_ : is_clipped_) = true;
+  if (within.size() < 3) add_polygon(face, corners, brought_near(corners), group);
+  else add_polygon(face, within, within, group);
+}
+
+/// The same, drawn elsewhere than its corners are.
+void Page::add_polygon(std::uint32_t face, const std::vector<Exact_point>& corners,
+                       const std::vector<Exact_point>& drawn, std::uint32_t group) {
   const std::uint32_t number = static_cast<std::uint32_t>(added_++);
   if (corners.size() < 3) return;
   // 1. Its corners.
   const std::size_t first = places_.size() / 3;
   kept_.push_back(
       {number, face, group, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(corners.size()), 0});
+  for (const Exact_point& p : drawn) append_place(places_, p);
   for (const Exact_point& p : corners) {
-    append_place(places_, p);
-    if (!keeps_texts_) continue;
+    if (!keeps_texts_) break;
     const auto [at, is_new] = texts_.try_emplace(text(p), static_cast<std::uint32_t>(texts_.size()));
     exact_.push_back(at->second);
     text_bytes_ += 3 + (is_new ? at->first.size() + 3 : 0);
@@ -177,21 +226,37 @@ void Page::add_pieces(const Scene& scene, const std::function<std::uint32_t(std:
   }
 }
 
-/// The polygons of largest area that have no more triangles than that, in their order.
+/// Polygons that have no more triangles than that, in their order: those without a face up to half of it, then those of
+/// groups that come first up to three quarters, then all, each time the largest.
 void Page::keep_the_largest(std::size_t triangles) {
   std::stable_sort(kept_.begin(), kept_.end(), [](const Polygon& a, const Polygon& b) { return a.area > b.area; });
+  std::vector<bool> stays(kept_.size());
   triangles_ = 0;
+  const auto take = [&](std::size_t most, const auto& is_wanted) {
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      if (stays[i] || !is_wanted(kept_[i]) || triangles_ + kept_[i].size - 2 > most) continue;
+      stays[i] = true;
+      triangles_ += kept_[i].size - 2;
+    }
+  };
+  take(triangles / 2, [](const Polygon& polygon) { return polygon.face == no_face; });
+  take(triangles / 4 * 3, [&](const Polygon& polygon) { return first_groups_.contains(polygon.group); });
+  take(triangles, [](const Polygon&) { return true; });
   std::size_t count = 0;
-  while (count < kept_.size() && triangles_ + kept_[count].size - 2 <= triangles) triangles_ += kept_[count++].size - 2;
+  for (std::size_t i = 0; i < kept_.size(); ++i)
+    if (stays[i]) kept_[count++] = kept_[i];
   kept_.resize(count);
   std::sort(kept_.begin(), kept_.end(), [](const Polygon& a, const Polygon& b) { return a.number < b.number; });
   std::vector<float> places;
+  std::vector<std::uint32_t> exact;
   for (Polygon& polygon : kept_) {
-    const auto begin = places_.begin() + 3 * static_cast<std::ptrdiff_t>(polygon.first);
+    const auto begin = static_cast<std::ptrdiff_t>(polygon.first), end = begin + polygon.size;
     polygon.first = static_cast<std::uint32_t>(places.size() / 3);
-    places.insert(places.end(), begin, begin + 3 * static_cast<std::ptrdiff_t>(polygon.size));
+    places.insert(places.end(), places_.begin() + 3 * begin, places_.begin() + 3 * end);
+    if (keeps_texts_) exact.insert(exact.end(), exact_.begin() + begin, exact_.begin() + end);
   }
   places_ = std::move(places);
+  exact_ = std::move(exact);
 }
 
 // ---- What is written
@@ -212,17 +277,27 @@ Json Page::polygons_json() const {
     json["corners"] = packed(places_);
     return json;
   }
+  // A source may be far away: its corners stay floats where they are few, so that steps are those of the scene.
+  std::vector<float> with_face, others;
+  for (const Polygon& polygon : kept_) {
+    const auto begin = places_.begin() + 3 * static_cast<std::ptrdiff_t>(polygon.first);
+    std::vector<float>& to = polygon.face == no_face ? others : with_face;
+    to.insert(to.end(), begin, begin + 3 * static_cast<std::ptrdiff_t>(polygon.size));
+  }
+  const bool are_few = !others.empty() && 16 * (others.size() / 3) <= 400000;
+  if (are_few) json["others"] = packed(others);
+  const std::vector<float>& rounded = are_few ? with_face : places_;
   Json from = Json::array(), step = Json::array();
-  std::vector<std::uint32_t> steps(places_.size());
+  std::vector<std::uint32_t> steps(rounded.size());
   for (std::size_t k = 0; k < 3; ++k) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (std::size_t i = k; i < places_.size(); i += 3) {
-      least = std::min<double>(least, places_[i]);
-      most = std::max<double>(most, places_[i]);
+    for (std::size_t i = k; i < rounded.size(); i += 3) {
+      least = std::min<double>(least, rounded[i]);
+      most = std::max<double>(most, rounded[i]);
     }
     const double width = most > least ? (most - least) / 65535 : 1;
-    for (std::size_t i = k; i < places_.size(); i += 3)
-      steps[i] = static_cast<std::uint32_t>(std::lround((places_[i] - least) / width));
+    for (std::size_t i = k; i < rounded.size(); i += 3)
+      steps[i] = static_cast<std::uint32_t>(std::lround((rounded[i] - least) / width));
     from.push_back(least);
     step.push_back(width);
   }
@@ -235,11 +310,16 @@ Json Page::polygons_json() const {
 Json Page::data() {
   if (triangles_ > most_triangles_) keep_the_largest(most_triangles_);
   const bool is_thinned = kept_.size() < added_;
-  if (is_thinned) add_note(fmt::format("thinned: of {} polygons the {} largest are drawn", added_, kept_.size()));
+  if (is_thinned)
+    add_note(fmt::format("thinned: of {} polygons {} are drawn: sources, what is marked, and the largest", added_,
+                         kept_.size()));
   const auto is_point = [](const Polygon& polygon) { return polygon.area == 0; };
   if (const auto points = std::count_if(kept_.begin(), kept_.end(), is_point); points > 0)
     add_note(fmt::format("{} of the polygons {} too small beside the scene to be drawn", points,
                          points == 1 ? "is" : "are"));
+  if (is_brought_near_)
+    add_note("a source that is beyond a million sizes of the scene is drawn nearer, in the same direction");
+  if (is_clipped_) add_note("a source that leads beyond a million sizes of the scene is drawn as far as that");
   if (!keeps_texts_) add_note("coordinates are rounded: those of so many corners would take too much of a page");
 
   Json data{{"format", "sightline page 1"},

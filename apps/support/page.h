@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,9 @@ Json doubles_left_out(const std::string& why);
 /// A page as it is put together. Its places are (x - middle) / size for the middle of the scene's box and a power of
 /// two, so that scenes far away, and of any size, keep what a float can hold.
 /// Post: a file of at most 1 MB and 40 bytes a triangle, and what the command adds. Of more than most_triangles it
-/// shows the largest polygons, and says so. Exact: in its texts; what is drawn is rounded, to 2^-24 of the scene's
-/// size or, where that would take too many bytes, to 2^-16, and where exact coordinates would, they are left out.
+/// shows the largest polygons, sources and groups that come first before others, and says so. Exact: in its texts; what
+/// is drawn is rounded, to 2^-24 of the scene's size or, where that would take too many bytes, to 2^-16, and where
+/// exact coordinates would, they are left out.
 class Page {
  public:
   static constexpr std::size_t most_triangles = 400000;
@@ -54,17 +56,21 @@ class Page {
   /// What is left out, rounded or thinned, in a sentence.
   void add_note(const std::string& note) { notes_.push_back(note); }
   /// What polygons may be, in the order of their numbers; `role` names the colour: seen, hidden, open, source, new,
-  /// other, or one a face.
-  void add_group(const std::string& name, const std::string& role) { groups_.push_back({name, role}); }
-  /// The next polygon: convex, counterclockwise as seen from its front. `face` may be no_face.
+  /// other, or one a face. Of too many polygons those of groups that come first stay before larger ones.
+  void add_group(const std::string& name, const std::string& role, bool comes_first = false) {
+    if (comes_first) first_groups_.insert(static_cast<std::uint32_t>(groups_.size()));
+    groups_.push_back({name, role});
+  }
+  /// The next polygon: convex, counterclockwise as seen from its front. `face` may be no_face: then it may be anywhere,
+  /// is clipped beyond 10^6 sizes of the scene, and drawn nearer where all of it is beyond.
   void add_polygon(std::uint32_t face, const std::vector<Exact_point>& corners, std::uint32_t group = 0);
   /// All pieces of a scene; the n-th polygon is its n-th piece.
   void add_pieces(const Scene& scene, const std::function<std::uint32_t(std::uint32_t piece)>& group_of = {});
   std::size_t polygons() const { return added_; }
 
-  /// A point as three numbers of the page; null where they are too large.
+  /// A point as three numbers of the page. Beyond 10^30 it is brought near, in its direction from the middle.
   Json place(const Exact_point& p) const;
-  /// The same beside others, as floats.
+  /// The same beside others, as floats, and beyond 10^6.
   void append_place(std::vector<float>& to, const Exact_point& p) const;
   /// The two ends of each side of a polygon.
   void append_sides(std::vector<float>& to, const std::vector<Exact_point>& polygon) const;
@@ -85,6 +91,16 @@ class Page {
     std::uint32_t number, face, group, first, size;  // number: among all that were added; first: in places_, exact_
     double area;
   };
+  static constexpr double farthest_drawn = 1e6;  // sources and viewpoints may be out of all proportion
+
+  /// A place of the page; beyond that of the same direction from the middle.
+  std::array<double, 3> near_place(const Exact_point& p, double farthest) const;
+  /// What of a convex polygon is in the cube of what is drawn.
+  std::vector<Exact_point> clipped(std::vector<Exact_point> polygon) const;
+  /// A polygon of the same shape and direction, as far away as that cube.
+  std::vector<Exact_point> brought_near(std::vector<Exact_point> polygon) const;
+  void add_polygon(std::uint32_t face, const std::vector<Exact_point>& corners, const std::vector<Exact_point>& drawn,
+                   std::uint32_t group);
   void keep_the_largest(std::size_t triangles);
   Json polygons_json() const;
 
@@ -94,11 +110,12 @@ class Page {
   Rational size_ = 1;
   std::vector<std::array<std::string, 2>> facts_, groups_;
   std::vector<std::string> notes_;
+  std::set<std::uint32_t> first_groups_;
   std::vector<Polygon> kept_;
   std::vector<float> places_;
   std::vector<std::uint32_t> exact_;  // the place of a corner's text, while texts are kept
   std::map<std::string, std::uint32_t> texts_;
-  bool keeps_texts_ = true;
+  bool keeps_texts_ = true, is_clipped_ = false, is_brought_near_ = false;
   std::size_t text_bytes_ = 0, triangles_ = 0, added_ = 0;
   Json more_ = Json::object();
 };

@@ -64,7 +64,11 @@ class Page:
         return self.browser.find_elements("css selector", selector)
 
     def text(self, selector):
-        return self.one(selector).text
+        """What one reads there."""
+        return self.js("const e = document.querySelector(arguments[0]); return e.checkVisibility() ? e.innerText.trim() : ''", selector)
+
+    def texts(self, selector):
+        return self.js("return [...document.querySelectorAll(arguments[0])].map(e => e.checkVisibility() ? e.innerText.trim() : '')", selector)
 
     def press(self, key):
         self.js("document.dispatchEvent(new KeyboardEvent('keydown', {key: arguments[0], bubbles: true}))", key)
@@ -77,7 +81,7 @@ class Page:
         self.click_at(*self.js("return sightline.middleOf(arguments[0])", polygon))
 
     def click_at(self, x, y):
-        actions = webdriver.ActionChains(self.browser)
+        actions = webdriver.ActionChains(self.browser, duration=0)
         view = self.one("#view")
         actions.move_to_element_with_offset(view, x - view.size["width"] / 2, y - view.size["height"] / 2).click().perform()
 
@@ -139,7 +143,9 @@ def browser():
     options = Options()
     options.binary_location = os.environ["SIGHTLINE_CHROMIUM"]
     for word in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                 "--window-size=1100,760", "--disable-extensions"):
+                 "--window-size=1100,760", "--disable-extensions",
+                 # A window put together without the software renderer, and borders of pixels: drawing is half of what the tests take.
+                 "--disable-gpu-compositing", "--webgl-antialiasing-mode=none"):
         options.add_argument(word)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     driver = webdriver.Chrome(options=options, service=Service(os.environ["SIGHTLINE_CHROMEDRIVER"]))

@@ -2,6 +2,7 @@
 
 import json
 import re
+from fractions import Fraction
 
 import pytest
 from conftest import Page, run, unpacked
@@ -140,6 +141,28 @@ def test_a_line_is_dashed_beyond_what_it_meets(browser, tmp_path):
     assert lines == [[place(-0.5), place(0), False], [place(0), place(1), True]]
     assert page.js("return sightline.camera.pitch") < -0.1, "faces look down: one sees them from below"
     page.close()
+
+
+def test_of_too_many_faces_those_that_are_wrong_and_the_source_stay(tmp_path):
+    """Twelve polygons of 302 corners, whose backs are to a small source, and a small triangle, the only face that it sees."""
+    scene, query, path = tmp_path / "squares.off", tmp_path / "query.json", tmp_path / "page.html"
+    points = [f"{x} {x * x} {-z}" for z in range(12) for x in range(302)] + ["20 20 1", "20.1 20 1", "20 20.1 1"]
+    faces = ["302 " + " ".join(str(302 * z + x) for x in reversed(range(302))) for z in range(12)] + ["3 3624 3625 3626"]
+    scene.write_text("\n".join([f"OFF {len(points)} {len(faces)} 0", *points, *faces]) + "\n")
+    query.write_text('{"query": "weak", "source": [["20", "20", "3"], ["20", "201/10", "3"], ["201/10", "20", "3"]], "two_sided": false}')
+    mine = tmp_path / "mine.sh"
+    mine.write_text("echo '{\"visible\": []}' > $3\n")
+    run("judge", "--program", f"sh {mine} {{scene}} {{query}} {{answer}}", "--query", "weak", "--contract", "exact", "--scenes", scene, "--ask", query, "--html", path, code=1)
+    data = json.loads(re.search(r'id="views"[^>]*>(.*?)</script>', path.read_text(), re.S)[1])[0]
+    polygons, names = data["polygons"], [group["name"] for group in data["groups"]]
+    groups, sizes, numbers, corners = (unpacked(polygons[key]) for key in ("groups", "sizes", "numbers", "corners"))
+    assert polygons["of"] == 14 and sizes == [302] * 9 + [3, 3], "of at most 3,000 triangles"
+    assert [names[g] for g in groups[-2:]] == ["missing but visible", "source"] and numbers[-2:] == [12, 13]
+    # What is said of corners is theirs.
+    texts, of = polygons["exact"]["texts"], unpacked(polygons["exact"]["corners"])
+    middle, size = data["frame"]["middle"], data["frame"]["size"]
+    assert len(of) == sum(sizes) and all(float(Fraction(text)) == pytest.approx(m + size * x, abs=1e-4) for i, n in enumerate(of) if i % 7 == 3
+                                         for text, m, x in zip(texts[n].split(", "), middle, corners[3 * i:3 * i + 3]))
 
 
 @pytest.mark.parametrize("of", ["judgement", "whole_report"])
