@@ -385,7 +385,7 @@ class Priority_index {
   /// The same for the face at one place.
   template <int S>
   bool plane_rules_out(std::uint32_t place, std::uint32_t i) const {
-    if (!usable_) return false;
+    if (!usable_ || relation_->has_many_corners(i)) return false;
     const Oriented_plane& g = placed_planes_[place];
     for (std::uint32_t c = first_[i]; c < first_[i + 1]; ++c)
       if (S * (dot(g.normal, corners_[c]) + g.offset) >= -g.slack) return false;

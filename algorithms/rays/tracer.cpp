@@ -232,7 +232,8 @@ class Ray_tracer::Search {
   void offer(const Candidate& candidate);
   void offer(Face_hit hit, std::uint32_t piece);
   /// Where doubles leave the border open, or, without a depth, the plane.
-  void look_exactly(std::uint32_t piece, const std::optional<Depth>& depth);
+  /// `crosses`: the piece's plane, for certain.
+  void look_exactly(std::uint32_t piece, const std::optional<Depth>& depth, bool crosses);
   /// All of a face of several pieces, as a ray that meets a border of one may meet others.
   void look_at_face(Face_id face);
   std::array<double, 2> bounds(const Rational& t) const;
@@ -256,7 +257,7 @@ void Ray_tracer::Search::look() {
   ++counters_.rays;
   if (ray_.away) return;
   if (ray_.blind) {
-    for (const Flat& flat : tracer_.flats_) look_exactly(flat.piece, std::nullopt);
+    for (const Flat& flat : tracer_.flats_) look_exactly(flat.piece, std::nullopt, false);
     return;
   }
   counters_.boxes += tracer_.boxes_.visit(
@@ -325,8 +326,8 @@ inline void Ray_tracer::Search::look_at(std::uint32_t place) {
   if (v == Verdict::outside) return;
   const std::optional<Depth> d = depth(flat);
   if (d && (d->high < 0 || d->low > limit_)) return;
-  if (!d || !(d->low > 0)) return look_exactly(flat.piece, std::nullopt);
-  if (v == Verdict::open) return look_exactly(flat.piece, d);
+  if (!d || !(d->low > 0)) return look_exactly(flat.piece, std::nullopt, d.has_value());
+  if (v == Verdict::open) return look_exactly(flat.piece, d, true);
   offer(Candidate{d->low, d->high, scene_.pieces()[flat.piece].face, d->side, flat.piece, none, {}});
 }
 
@@ -343,7 +344,7 @@ void Ray_tracer::Search::offer(Face_hit hit, std::uint32_t piece) {
   offer(candidate);
 }
 
-void Ray_tracer::Search::look_exactly(std::uint32_t piece, const std::optional<Depth>& depth) {
+void Ray_tracer::Search::look_exactly(std::uint32_t piece, const std::optional<Depth>& depth, bool crosses) {
   ++counters_.exact_pieces;
   const Face_id face = scene_.pieces()[piece].face;
   if (std::find(whole_faces_.begin(), whole_faces_.end(), face) != whole_faces_.end()) return;
@@ -355,7 +356,8 @@ void Ray_tracer::Search::look_exactly(std::uint32_t piece, const std::optional<D
   }
   std::optional<Face_hit> found = whole_.part(piece);
   if (!found) return;
-  if (!alone) return look_at_face(face);
+  // All pieces in one plane that the line crosses are met at one t, or not.
+  if (!alone && !(crosses && tracer_.is_flat_[face])) return look_at_face(face);
   if (start_ == Ray_start::closed || found->t > 0) offer(std::move(*found), piece);
 }
 
@@ -460,6 +462,9 @@ Ray_tracer::Ray_tracer(const Scene& scene) : scene_(&scene), grid_(scene) {
   first_piece_.assign(scene.counters().faces_read + 1, 0);
   for (const Piece& piece : pieces) ++first_piece_[piece.face + 1];
   for (std::size_t f = 1; f < first_piece_.size(); ++f) first_piece_[f] += first_piece_[f - 1];
+  is_flat_.assign(scene.counters().faces_read, true);
+  for (const Piece& piece : pieces)
+    if (!(piece.support == pieces[first_piece_[piece.face]].support)) is_flat_[piece.face] = false;
 
   // 3. Boxes, and pieces in their order.
   const auto scaled = [&](std::uint32_t point) {

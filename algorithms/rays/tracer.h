@@ -89,6 +89,7 @@ class Ray_tracer {
   std::vector<Flat> flats_;  ///< in the order of the boxes
   std::vector<std::array<double, 3>> more_;
   std::vector<std::uint32_t> first_piece_;  ///< of each face: pieces [first_piece_[f], first_piece_[f + 1])
+  std::vector<bool> is_flat_;               ///< of each face: all its pieces are in one plane
   Ray_boxes boxes_;
 };
 
