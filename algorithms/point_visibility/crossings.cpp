@@ -117,15 +117,12 @@ class Crossing_search {
 
   std::vector<Crossing> find(const Piece_boxes& boxes, const std::vector<bool>& wanted,
                              const std::function<void()>& go_on) {
-    std::vector<bool> has_boxes(scene_.pieces().size()), has_chunk = has_boxes;  // two or more; one
-    for (const Piece_boxes::Chunk& chunk : boxes.chunks()) {
-      if (has_chunk[chunk.piece]) has_boxes[chunk.piece] = true;
-      has_chunk[chunk.piece] = true;
-    }
+    std::vector<std::uint32_t> chunks(scene_.pieces().size());  // of each piece
+    for (const Piece_boxes::Chunk& chunk : boxes.chunks()) ++chunks[chunk.piece];
     std::set<std::pair<std::uint32_t, std::uint32_t>> noted;  // those that may come again
     Close_pairs(boxes, wanted).each([&](std::uint32_t f, std::uint32_t g) {
       if (go_on) go_on();
-      if ((has_boxes[f] || has_boxes[g]) && !noted.insert(std::minmax(f, g)).second) return;
+      if ((chunks[f] > 1 || chunks[g] > 1) && !noted.insert(std::minmax(f, g)).second) return;
       note(f, g);
     });
     for (auto& [planes, reached] : reached_) {

@@ -132,8 +132,8 @@ std::string flaw_of_places(const Scene& scene, const Occluders& occluders, const
   constexpr std::size_t most_cells = 10;
   // Doubles do not tell where a sliver is.
   const auto is_sliver = [&](std::size_t cell) { return partition.cells[cell].area.low < 1e-6; };
-  const bool has_slivers = std::any_of(partition.cells.begin(), partition.cells.end(),
-                                       [&](const Light_partition::Cell& cell) { return cell.area.low < 1e-6; });
+  bool has_slivers = false;
+  for (std::size_t c = 0; c < partition.cells.size(); ++c) has_slivers |= is_sliver(c);
   const generate::Points corners = weak_flats::polygons(scene)[piece];
   const weak_flats::Level plane = weak_flats::level_of(corners);
   for (std::size_t c = 0; c < std::min(most_cells, partition.cells.size()); ++c) {
