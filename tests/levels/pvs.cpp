@@ -7,6 +7,7 @@
 #include <sightline/algorithms/levels/ways.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace sightline {
 namespace {
@@ -72,6 +73,25 @@ TEST(Cell_pvs, is_the_same_on_any_number_of_threads_and_in_shards) {
     EXPECT_EQ(merged, one.visible);
     EXPECT_EQ(pairs, one.counters.pairs);
   }
+}
+
+TEST(Cell_pvs, is_the_same_after_an_exception_in_the_middle) {
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
+  Pvs_options options;
+  options.threads = 1;
+  const Cell_pvs one = mutually_visible_cells(level, options);
+  std::size_t calls = 0, throws_at = 0;
+  options.progress = [&](std::size_t, std::size_t) {
+    if (++calls == throws_at) throw std::runtime_error("enough");
+  };
+  Cell_pvs_search search(level, options);
+  for (throws_at = 1; throws_at <= 4; ++throws_at) {
+    calls = 0;
+    EXPECT_THROW(search.ask(0, 1), std::runtime_error);
+  }
+  const Cell_pvs again = search.ask(0, 1);
+  EXPECT_EQ(again.visible, one.visible);
+  EXPECT_EQ(again.counters.visible, one.counters.visible);
 }
 
 TEST(Cell_pvs, has_sightlines_from_cell_to_cell_whose_ends_are_in_them) {
