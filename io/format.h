@@ -22,6 +22,8 @@ struct Read_options {
   /// Of .qoff: the coordinates' common denominator may be of any length. No Scene can be made of such a soup's points
   /// together.
   bool any_denominator = false;
+  /// Of .qoff: what has no `/` is a decimal.
+  bool decimals_too = false;
 };
 
 /// The format that a file name's ending names, upper or lower case (.ply: text, when written); nothing for any other

@@ -116,7 +116,8 @@ void Off_reader::read_point(std::size_t i) {
   if (!text_.next_line()) fail_cut_off(i, points_, "vertices");
   for (int k = 0; k < 3; ++k) {
     const std::string_view token = text_.next_token();
-    const Number number = read_coordinate(text_, token, syntax_, options_);
+    const bool is_decimal = options_.decimals_too && token.find('/') == std::string_view::npos;
+    const Number number = read_coordinate(text_, token, is_decimal ? Number_syntax::decimal : syntax_, options_);
     const auto* value = std::get_if<Rational>(&number);
     const bool is_limited = value && syntax_ == Number_syntax::rational && !options_.any_denominator;
     if (is_limited && bit_length(value->get_num()) > bit_length(value->get_den()) + largest_common_denominator_bits)

@@ -47,7 +47,7 @@ static std::string in_words(const judge::Grade& grade) {
 static void count_kinds(const Judge_case& asked, const judge::Truth& truth, Judged& judged) {
   const Scene scene(asked.soup);
   const auto holds = [](const std::vector<Face_id>& faces, Face_id f) {
-    return std::find(faces.begin(), faces.end(), f) != faces.end();
+    return std::binary_search(faces.begin(), faces.end(), f);
   };
   const judge::Grade& grade = judged.grade;
   for (const std::vector<Face_id>* faces : {&truth.visible, &truth.hidden})
@@ -211,7 +211,13 @@ std::vector<std::string> Court::keep_files(const std::string& folder, const std:
   keep(options_.format, scene_text(asked));
   keep("json", query_text(asked));
   if (said) keep("answer", *said);
-  else fs::remove(fs::path(folder) / (stem + ".answer"));
+  // What an earlier run left of another case.
+  std::vector<std::string> stale{stem + ".svg"};
+  if (!said) stale.push_back(stem + ".answer");
+  if (stem == "smallest")
+    for (const std::string& ending : {options_.format, std::string("json"), std::string("answer"), std::string("svg")})
+      stale.push_back("reduced." + ending);
+  for (const std::string& name : stale) fs::remove(fs::path(folder) / name);
   return kept;
 }
 

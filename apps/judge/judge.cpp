@@ -259,9 +259,10 @@ class Session {
   Judged smallest_case_;
 };
 
-Exit run(const Judge_arguments& arguments) {
+Exit run(Judge_arguments arguments) {
   check_usage(arguments);
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
+  if (!arguments.choice.ask.empty()) arguments.two_sided = groups.at(0).make(arguments.seed).query.two_sided;
   for (const std::string& output : {arguments.json, arguments.html}) check_replaceable(output);  // before the work
   const Court court(arguments.court_options());
   const Shard own = shard_of(arguments.shard);

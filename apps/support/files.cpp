@@ -1,5 +1,6 @@
 #include "files.h"
 
+#include "limited_process.h"
 #include "options.h"
 
 #include <sightline/io/file.h>
@@ -129,6 +130,7 @@ extern "C" {
 static void end_by_signal_without_remains(int number) {
   if (put_off(number)) return;
   remove_unfinished();
+  end_what_runs();
   std::signal(number, SIG_DFL);
   std::raise(number);
 }

@@ -13,6 +13,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -24,18 +26,36 @@ namespace sightline::app {
 
 namespace {
 
-/// Memory that a process and all that it started hold now; the peak of the first one alone where that is more.
-std::uint64_t memory_of(pid_t process) {
-  std::uint64_t sum = 0;
-  std::vector<pid_t> open{process};
-  while (!open.empty()) {
-    const std::string name = std::to_string(open.back());
-    open.pop_back();
-    sum += process_memory(name, "VmRSS");
-    std::ifstream children("/proc/" + name + "/task/" + name + "/children");
-    for (pid_t child = 0; children >> child;) open.push_back(child);
+// What a signal must end and remove.
+std::atomic<pid_t> running_group{0};
+constexpr std::size_t most_names = 16;
+std::atomic<const char*> folder_name{nullptr};
+std::array<std::atomic<const char*>, most_names> file_names{};
+
+/// A process and all that it started, in any of its threads.
+std::vector<std::string> with_descendants(pid_t process) {
+  std::vector<std::string> all{std::to_string(process)};
+  for (std::size_t next = 0; next < all.size(); ++next) {
+    std::error_code gone;
+    for (std::filesystem::directory_iterator task("/proc/" + all[next] + "/task", gone), end; !gone && task != end;
+         task.increment(gone)) {
+      std::ifstream children(task->path() / "children");
+      for (std::string child; children >> child;) all.push_back(child);
+    }
   }
-  return std::max(sum, process_memory(std::to_string(process), "VmHWM"));
+  return all;
+}
+
+/// Memory that a process and all that it started hold now, what they share counted once; the peak of the first one
+/// alone where that is more.
+std::uint64_t memory_of(pid_t process) {
+  const std::vector<std::string> all = with_descendants(process);
+  std::uint64_t sum = 0;
+  for (const std::string& name : all) {
+    const std::uint64_t shared_out = all.size() > 1 ? process_memory(name, "Pss", "smaps_rollup") : 0;
+    sum += shared_out > 0 ? shared_out : process_memory(name, "VmRSS");
+  }
+  return std::max(sum, process_memory(all[0], "VmHWM"));
 }
 
 void set_limit(int what, rlim_t most) {
@@ -158,6 +178,7 @@ static Process_end end_of(pid_t child, const Process_limits& limits) {
   }
   end.seconds = watch.seconds();
   kill(-child, SIGKILL);  // what it left running
+  running_group = 0;
 
   // 2. What became of it.
   if (const std::uint64_t most = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; most > own)
@@ -175,6 +196,8 @@ static pid_t forked() {
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error(std::string("no process: ") + std::strerror(errno));
   if (child > 0) setpgid(child, child);
+  running_group = child;
+  if (child == 0) folder_name = nullptr;  // the parent's
   return child;
 }
 
@@ -197,6 +220,7 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
   int error = 0;
   if (read(from.number, &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
     waitpid(child, nullptr, 0);
+    running_group = 0;
     throw std::runtime_error("'" + words[0] + "' cannot be started: " + std::strerror(error));
   }
 
@@ -229,13 +253,31 @@ Process_end work_limited(const std::function<std::string()>& work, const Process
   _exit(code);
 }
 
+std::filesystem::path Temporary_folder::operator/(const std::string& name) const {
+  const auto [file, is_new] = files_.insert((path_ / name).string());
+  if (is_new && files_.size() <= most_names) file_names[files_.size() - 1] = file->c_str();
+  return *file;
+}
+
+void end_what_runs() noexcept {
+  if (const pid_t group = running_group; group > 0) kill(-group, SIGKILL);
+  const char* const folder = folder_name;
+  if (folder == nullptr) return;
+  for (const std::atomic<const char*>& file : file_names)
+    if (const char* const name = file) unlink(name);
+  rmdir(folder);
+}
+
 Temporary_folder::Temporary_folder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "sightline-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr)
     throw std::runtime_error(pattern + ": no folder can be made there; check TMPDIR");
   path_ = pattern;
+  folder_name = path_.c_str();
 }
 Temporary_folder::~Temporary_folder() {
+  folder_name = nullptr;
+  for (std::atomic<const char*>& name : file_names) name = nullptr;
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
 }

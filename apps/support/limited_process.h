@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -43,16 +44,21 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
 Process_end work_limited(const std::function<std::string()>& work, const Process_limits& limits,
                          const std::filesystem::path& output);
 
-/// A folder that is gone at the end.
+/// A folder that is gone at the end. Pre: one at a time.
 class Temporary_folder {
  public:
   Temporary_folder();
   Temporary_folder(const Temporary_folder&) = delete;
   ~Temporary_folder();
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  std::filesystem::path operator/(const std::string& name) const;
 
  private:
   std::filesystem::path path_;
+  mutable std::set<std::string> files_;  // which a signal removes
 };
+
+/// Ends what run_limited() or work_limited() waits for, and removes the temporary folder with what it was asked for.
+/// For a handler of signals.
+void end_what_runs() noexcept;
 
 }  // namespace sightline::app

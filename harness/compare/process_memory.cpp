@@ -4,8 +4,8 @@
 
 namespace sightline {
 
-std::uint64_t process_memory(const std::string& process, const std::string& key) {
-  std::ifstream in("/proc/" + process + "/status");
+std::uint64_t process_memory(const std::string& process, const std::string& key, const char* file) {
+  std::ifstream in("/proc/" + process + "/" + file);
   for (std::string line; std::getline(in, line);)
     if (line.starts_with(key + ":")) return std::stoull(line.substr(key.size() + 1)) * 1024;
   return 0;

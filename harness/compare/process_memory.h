@@ -6,9 +6,9 @@
 
 namespace sightline {
 
-/// A value of /proc/PROCESS/status in bytes, such as "VmRSS" (in use now) or "VmHWM" (the most so far); 0 where there
-/// is none. `process`: a number, or "self".
-std::uint64_t process_memory(const std::string& process, const std::string& key);
+/// A value of /proc/PROCESS/status in bytes, such as "VmRSS" (in use now) or "VmHWM" (the most so far), or of another
+/// file there; 0 where there is none. `process`: a number, or "self".
+std::uint64_t process_memory(const std::string& process, const std::string& key, const char* file = "status");
 
 /// The most memory that this process has in use from now on, above what it has now.
 class Peak_memory {

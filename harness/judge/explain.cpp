@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <numbers>
 #include <set>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,7 @@ double share_of_directions(double angle) { return angle / (4 * std::numbers::pi)
 
 struct Flat_piece {
   Face_id face;
+  std::uint32_t support;  // its plane's id
   Polygon corners;
   certificate_check::Plane plane;
 };
@@ -86,12 +88,19 @@ struct Flat_piece {
 std::vector<Flat_piece> pieces_of(const Scene& scene) {
   std::vector<Flat_piece> pieces;
   for (const Piece& piece : scene.pieces()) {
-    Flat_piece flat{piece.face, {}, {}};
+    Flat_piece flat{piece.face, piece.support.id(), {}, {}};
     for (const Piece_corner& corner : scene.corners(piece)) flat.corners.push_back(scene.position(corner.point));
     flat.plane = {newell_normal(flat.corners), flat.corners[0]};
     pieces.push_back(std::move(flat));
   }
   return pieces;
+}
+
+/// By face: its pieces.
+std::vector<std::vector<const Flat_piece*>> by_face(const std::vector<Flat_piece>& pieces, std::size_t faces) {
+  std::vector<std::vector<const Flat_piece*>> found(faces);
+  for (const Flat_piece& piece : pieces) found[piece.face].push_back(&piece);
+  return found;
 }
 
 /// Where a segment first meets a closed piece strictly between its ends, and that piece's face.
@@ -147,22 +156,22 @@ std::optional<Refutation> hidden_face(const std::vector<Flat_piece>& pieces, con
 
 // ---- By question
 
-/// Parts in the plane of a face, cut to the cone that the eye sees the face in.
-std::vector<Polygon> parts_on(const std::vector<Flat_piece>& pieces, Face_id face, const Seen& seen, bool two_sided) {
+/// Parts in the plane of a face, cut to the cone that the eye sees the face in. `face`: its pieces; `parts`: all that
+/// are in their plane.
+std::vector<Polygon> parts_on(const std::vector<const Flat_piece*>& face,
+                              const std::vector<const Seen::Visible_part*>& parts, const Exact_point& eye,
+                              bool two_sided) {
   std::vector<Polygon> found;
-  for (const Seen::Visible_part& part : seen.parts) {
-    if (part.face == face) {
-      if (part.from_front || two_sided) found.push_back(part.corners);
+  for (const Seen::Visible_part* part : parts) {
+    if (part->face == face[0]->face) {
+      if (part->from_front || two_sided) found.push_back(part->corners);
       continue;
     }
-    for (const Flat_piece& piece : pieces) {  // of faces in one plane the part is one's, and all are visible
-      if (piece.face != face || (piece.plane.side(seen.eye) < 0 && !two_sided)) continue;
-      if (!std::all_of(part.corners.begin(), part.corners.end(),
-                       [&](const Exact_point& p) { return piece.plane.side(p) == 0; }))
-        continue;
-      Polygon common = part.corners;
-      for (const auto& edge : certificate_check::Cone(piece.corners, seen.eye).edge_planes)
-        common = clipped(common, edge, seen.eye);
+    for (const Flat_piece* piece : face) {  // of faces in one plane the part is one's, and all are visible
+      if (piece->plane.side(eye) < 0 && !two_sided) continue;
+      Polygon common = part->corners;
+      for (const auto& edge : certificate_check::Cone(piece->corners, eye).edge_planes)
+        common = clipped(common, edge, eye);
       if (has_area(common)) found.push_back(std::move(common));
     }
   }
@@ -172,11 +181,16 @@ std::vector<Polygon> parts_on(const std::vector<Flat_piece>& pieces, Face_id fac
 Explanation explain_seen(const Polygon_soup& soup, const Query& query, const Grade& grade, bool missing_first) {
   const Seen seen = sightline::see(Model(soup), query.eye);
   const std::vector<Flat_piece> pieces = pieces_of(Scene(soup));
+  const auto faces = by_face(pieces, soup.face_count());
+  std::unordered_map<std::uint32_t, std::vector<const Seen::Visible_part*>> in_plane;  // faces are planar
+  for (const Seen::Visible_part& part : seen.parts) in_plane[faces[part.face].at(0)->support].push_back(&part);
   Explanation why;
   double missing = 0, largest = -1;
   std::optional<Refutation> of_missing;
-  for (const Face_id face : grade.wrong_hidden)
-    for (const Polygon& part : parts_on(pieces, face, seen, query.two_sided)) {
+  for (const Face_id face : grade.wrong_hidden) {
+    if (faces[face].empty()) continue;
+    const std::vector<const Seen::Visible_part*>& there = in_plane[faces[face][0]->support];
+    for (const Polygon& part : parts_on(faces[face], there, query.eye, query.two_sided)) {
       const double angle = part_of(part).solid_angle(query.eye);
       missing += angle;
       if (angle <= largest) continue;
@@ -190,6 +204,7 @@ Explanation explain_seen(const Polygon_soup& soup, const Query& query, const Gra
           {},
           face_words(face) + " is seen at " + words_of(to) + ": nothing is between it and the eye " + words_of(query.eye)};
     }
+  }
   double shown = 0;
   for (const Flat_piece& piece : pieces)
     if (std::binary_search(grade.wrong_visible.begin(), grade.wrong_visible.end(), piece.face))
@@ -208,34 +223,41 @@ Explanation explain_seen(const Polygon_soup& soup, const Query& query, const Gra
 }
 
 /// The directions in which one face is nearer than another, as polygons on the first.
-std::vector<Polygon> nearer(const std::vector<Flat_piece>& pieces, Face_id near, Face_id far, const Exact_point& eye) {
+std::vector<Polygon> nearer(const std::vector<const Flat_piece*>& near, const std::vector<const Flat_piece*>& far,
+                            const Exact_point& eye) {
   std::vector<Polygon> found;
-  for (const Flat_piece& a : pieces)
-    for (const Flat_piece& b : pieces) {
-      if (a.face != near || b.face != far || a.plane.side(eye) == 0 || b.plane.side(eye) == 0) continue;
-      Polygon common = a.corners;
-      for (const auto& edge : certificate_check::Cone(b.corners, eye).edge_planes) common = clipped(common, edge, eye);
-      common = clipped(common, b.plane.side(eye) > 0 ? b.plane.normal : certificate_check::negated(b.plane.normal),
-                       b.corners[0]);
+  for (const Flat_piece* a : near)
+    for (const Flat_piece* b : far) {
+      if (a->plane.side(eye) == 0 || b->plane.side(eye) == 0) continue;
+      Polygon common = a->corners;
+      for (const auto& edge : certificate_check::Cone(b->corners, eye).edge_planes) common = clipped(common, edge, eye);
+      common = clipped(common, b->plane.side(eye) > 0 ? b->plane.normal : certificate_check::negated(b->plane.normal),
+                       b->corners[0]);
       if (has_area(common) &&
-          !std::all_of(common.begin(), common.end(), [&](const Exact_point& p) { return b.plane.side(p) == 0; }))
+          !std::all_of(common.begin(), common.end(), [&](const Exact_point& p) { return b->plane.side(p) == 0; }))
         found.push_back(std::move(common));
     }
   return found;
 }
 
+constexpr std::size_t most_pairs = 10'000;  // of an order that is all wrong there are as many as pairs of faces
+
 Explanation explain_order(const Polygon_soup& soup, const Query& query, const Answer& answer, const Grade& grade) {
   const std::vector<Flat_piece> pieces = pieces_of(Scene(soup));
+  const auto faces = by_face(pieces, soup.face_count());
   std::vector<bool> in_parts(soup.face_count());
   for (const Drawn_face& drawn : answer.order)
     if (!drawn.part.empty()) in_parts[drawn.face] = true;
   Explanation why;
   double wrong = 0, largest = -1;
   bool left_out = false;
+  std::size_t looked_at = 0;
   for (const auto& [earlier, later] : grade.wrong_pairs) {
+    if (looked_at == most_pairs) break;
+    ++looked_at;
     left_out = left_out || in_parts[earlier] || in_parts[later];
     if (in_parts[earlier] || in_parts[later]) continue;
-    for (const Polygon& part : nearer(pieces, earlier, later, query.eye)) {
+    for (const Polygon& part : nearer(faces[earlier], faces[later], query.eye)) {
       const double angle = part_of(part).solid_angle(query.eye);
       wrong += angle;
       if (angle <= largest) continue;
@@ -251,13 +273,16 @@ Explanation explain_order(const Polygon_soup& soup, const Query& query, const An
                         later};
     }
   }
-  for (const Face_id face : grade.wrong_hidden)
-    for (const Flat_piece& piece : pieces) {
-      if (why.refutation || piece.face != face || in_parts[face]) continue;
-      why.refutation = {face, query.eye, middle(piece.corners), {}, {}, face_words(face) + " is missing in the order"};
-    }
+  for (const Face_id face : grade.wrong_hidden) {
+    if (why.refutation || faces[face].empty() || in_parts[face]) continue;
+    why.refutation = {face, query.eye, middle(faces[face][0]->corners),
+                      {},   {},        face_words(face) + " is missing in the order"};
+  }
   why.share = share_of_directions(wrong);
-  why.share_words = percent(why.share) + " of all directions are drawn in the wrong order, summed over pairs" +
+  why.share_words = percent(why.share) + " of all directions are drawn in the wrong order, summed over " +
+                    (looked_at < grade.wrong_pairs.size()
+                         ? std::to_string(looked_at) + " of " + std::to_string(grade.wrong_pairs.size()) + " pairs"
+                         : std::string("pairs")) +
                     (left_out ? ", without faces drawn in parts" : "");
   return why;
 }

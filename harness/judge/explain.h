@@ -36,7 +36,8 @@ struct Explanation {
 /// drawn earlier is nearer. Weak: a sightline that verify_weak() accepts, or what stands on a line to a hidden face.
 /// Trace: a ray, and what it meets. Boolean: a point, and the face beside it. Faces that the contract forbids to be
 /// wrong come first. Pre: faces are planar, the grade is of an answer to the query, and wrong. `seconds`: for the
-/// sightline of a weak query. Cost: that of the truth. Exact: yes, but for the share and words.
+/// sightline of a weak query. Cost: that of the truth; of an order at most 10,000 of the wrong pairs are looked at.
+/// Exact: yes, but for the share and words.
 Explanation explain(const Polygon_soup& soup, const Query& query, const Answer& answer, const Grade& grade,
                     Contract contract, double seconds = 20);
 

@@ -49,6 +49,23 @@ Flat_polygon Order_truth::Face::flat(const std::vector<Exact_point>& points) con
   return Flat_polygon::hull(std::move(corners));
 }
 
+bool Order_truth::Face::leaves(const std::vector<Exact_point>& part) const {
+  Rational most = 0;  // side of the face's box
+  for (std::size_t k = 0; k < 3; ++k) {
+    Rational least = pieces[0][0][k], greatest = least;
+    for (const order_check::Polygon& polygon : pieces)
+      for (const Exact_point& p : polygon) {
+        least = std::min(least, p[k]);
+        greatest = std::max(greatest, p[k]);
+      }
+    most = std::max(most, Rational(greatest - least));
+  }
+  return std::any_of(part.begin(), part.end(), [&](const Exact_point& p) {
+    const Rational height = (plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3]) / plane[axis];
+    return Rational(abs(height) * (1 << tolerance_bits)) > most;
+  });
+}
+
 Rational Order_truth::Face::area() const {
   Rational sum = 0;
   for (const order_check::Polygon& polygon : pieces) sum += flat(polygon).area();
@@ -143,8 +160,13 @@ void Order_truth::judge_areas(const Answer& answer, Grade& grade, std::set<Face_
   std::vector<std::vector<Flat_polygon>> parts(faces_.size());
   std::vector<bool> whole(faces_.size());
   for (const Drawn_face& drawn : answer.order) {
-    if (drawn.part.empty()) whole[drawn.face] = true;
-    else if (!faces_[drawn.face].pieces.empty()) parts[drawn.face].push_back(faces_[drawn.face].flat(drawn.part));
+    const Face& face = faces_[drawn.face];
+    if (drawn.part.empty()) {
+      whole[drawn.face] = true;
+    } else if (!face.pieces.empty()) {
+      parts[drawn.face].push_back(face.flat(drawn.part));
+      if (face.leaves(drawn.part)) shown.insert(drawn.face);
+    }
   }
   for (Face_id f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];

@@ -20,8 +20,9 @@ namespace sightline::judge {
 /// A scene and an eye, ready to judge orders. Whole faces are compared exactly, by the code of `verify`. A part has
 /// rounded corners as a rule, so it is moved onto its face's exact plane along the dominant axis, stands for its convex
 /// hull there, and is compared smaller by 2^-20 about its middle, or not at all where it has less than 2^-20 of its
-/// face's area. Pre: all faces are planar. Degenerate: faces in whose plane the eye is may stand anywhere, or be
-/// missing; contact is no overlap; equal distance is in order both ways. Exact: yes.
+/// face's area; one that is out of the plane by more than 2^-20 of the face's size is wrong. Pre: all faces are planar.
+/// Degenerate: faces in whose plane the eye is may stand anywhere, or be missing; contact is no overlap; equal distance
+/// is in order both ways. Exact: yes.
 class Order_truth {
  public:
   Order_truth(const Scene& scene, const Exact_point& eye, bool two_sided);
@@ -47,6 +48,8 @@ class Order_truth {
 
     void set_plane(const std::array<Rational, 4>& coefficients);
     Flat_polygon flat(const std::vector<Exact_point>& points) const;
+    /// Whether some corner is out of the plane, along the dominant axis, by more than the tolerance of the face's size.
+    bool leaves(const std::vector<Exact_point>& part) const;
     Rational area() const;
     /// A part on the plane, smaller by the tolerance, in either sense.
     order_check::Polygon shrunk(const Flat_polygon& part) const;

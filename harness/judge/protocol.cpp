@@ -239,16 +239,16 @@ Answer Answer_reader::finished() {
   return std::move(answer_);
 }
 
-/// A surface in OFF, whose numbers are decimals, or p/q; nothing where it is abstained from.
+/// A surface in OFF, of whose numbers each is a decimal or p/q; nothing where it is abstained from.
 std::optional<Polygon_soup> surface_of(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n");
   if (begin == std::string::npos) fail("it is empty; write OFF, of no result `OFF` and a line `0 0 0`");
   const std::string_view word = std::string_view(text).substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
   if (word == "abstained" || word == "abstained all") return std::nullopt;
   Read_options options;
-  options.any_denominator = true;
+  options.any_denominator = options.decimals_too = true;
   try {
-    return read_scene(text, text.find('/') == std::string::npos ? Format::off : Format::qoff, "OFF", options);
+    return read_scene(text, Format::qoff, "OFF", options);
   } catch (const Input_error& error) {
     fail(error.what());
   }

@@ -3,30 +3,18 @@
 #include <sightline/algorithms/rays/tracer.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/generate/rays.h>
+#include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <utility>
 
 namespace sightline::judge {
 namespace {
-
-std::set<Exact_point> corner_set(const Polygon_soup& soup, Face_id face) {
-  std::set<Exact_point> corners;
-  for (const Point_id p : soup.loop(face)) corners.insert(soup.point(p));
-  return corners;
-}
-
-/// Faces that are set aside though they have the corners of a face that is kept.
-std::vector<std::pair<Face_id, std::set<Exact_point>>> repetitions(const Polygon_soup& soup, const Scene& scene) {
-  std::vector<std::pair<Face_id, std::set<Exact_point>>> found;
-  for (const Set_aside& face : scene.set_aside())
-    if (face.reason == Set_aside_reason::duplicate) found.emplace_back(face.face, corner_set(soup, face.face));
-  return found;
-}
 
 bool is_on_segment(const Exact_point& x, const Exact_point& p, const Exact_point& q) {
   const Exact_point along = minus(q, p), to = minus(x, p);
@@ -70,7 +58,9 @@ std::vector<Ray_truth> ray_truths(const Polygon_soup& soup, const Scene& scene, 
                                   const Ray_rule& rule) {
   const Ray_tracer tracer(scene);
   Ray_counters counters;
-  const auto repeated = repetitions(soup, scene);
+  std::vector<std::array<Face_id, 2>> repetitions;  // set aside, and what it repeats
+  for (const Set_aside& entry : scene.set_aside())
+    if (const std::optional<Face_id> kept = face_repeated_by(entry)) repetitions.push_back({entry.face, *kept});
   std::vector<Ray_truth> truths;
   for (const Exact_ray& ray : rays) {
     // 1. What counts, by depth.
@@ -90,10 +80,9 @@ std::vector<Ray_truth> ray_truths(const Polygon_soup& soup, const Scene& scene, 
       return rule.farthest || !does_more;
     });
     // 3. Repetitions of these faces are as right.
-    for (const auto& [face, corners] : repeated)
-      if (std::any_of(truth.right.begin(), truth.right.end(),
-                      [&, &corners = corners](Face_id right) { return corner_set(soup, right) == corners; }))
-        truth.right.push_back(face);
+    const std::vector<Face_id> met = truth.right;
+    for (const auto& [face, kept] : repetitions)
+      if (std::find(met.begin(), met.end(), kept) != met.end()) truth.right.push_back(face);
     std::sort(truth.right.begin(), truth.right.end());
     truth.right.erase(std::unique(truth.right.begin(), truth.right.end()), truth.right.end());
   }

@@ -10,15 +10,18 @@
 
 namespace sightline {
 
+std::optional<Face_id> face_repeated_by(const Set_aside& entry) {
+  if (entry.reason != Set_aside_reason::duplicate) return std::nullopt;
+  Face_id face = 0;
+  const char* const end = entry.why.data() + entry.why.size();
+  std::from_chars(entry.why.data() + text_of(entry.reason).size(), end, face);
+  return face;
+}
+
 std::vector<int> times_given(const Scene& scene) {
   std::unordered_map<Face_id, int> more;
-  for (const Set_aside& entry : scene.set_aside()) {
-    if (entry.reason != Set_aside_reason::duplicate) continue;
-    Face_id face = 0;
-    const char* const end = entry.why.data() + entry.why.size();
-    std::from_chars(entry.why.data() + text_of(entry.reason).size(), end, face);
-    ++more[face];
-  }
+  for (const Set_aside& entry : scene.set_aside())
+    if (const std::optional<Face_id> face = face_repeated_by(entry)) ++more[*face];
   std::vector<int> times;
   for (const Piece& piece : scene.pieces()) {
     const auto found = more.find(piece.face);

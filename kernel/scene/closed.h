@@ -4,9 +4,13 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace sightline {
+
+/// The kept face that a duplicate repeats; nothing where a face is set aside for another reason.
+std::optional<Face_id> face_repeated_by(const Set_aside& entry);
 
 /// How often the file has each piece's face: once, and once more for each duplicate of it that was set aside. A
 /// duplicate runs the same way round as its face. Cost: O(pieces). Exact: yes

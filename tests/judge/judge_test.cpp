@@ -314,6 +314,11 @@ TEST(Orders, may_hold_parts_with_rounded_corners) {
     nearly_all.replace(at, 8, "0.99999809265136718750");
   EXPECT_FALSE(graded(soup, above, order(nearly_all + ", 1")).wrong());
   EXPECT_EQ(graded(soup, above, order(part(0, 0.25, 0.25, 0) + ", 1")).wrong_hidden, (Faces{0}));  // without area
+  // Out of the plane by 2^-20 of the face's size, and more.
+  EXPECT_FALSE(graded(soup, above, order(part(0, -1, 1, 0x1p-19) + ", 1")).wrong());
+  EXPECT_FALSE(graded(soup, above, order(part(0, -1, 1, -0x1p-19) + ", 1")).wrong());
+  for (const double z : {0x1.00001p-19, -0x1.00001p-19, 777.0, 1e300})
+    EXPECT_EQ(graded(soup, above, order(part(0, -1, 1, z) + ", 1")).wrong_visible, (Faces{0})) << z;
 }
 
 TEST(Orders, in_a_cycle_are_asked_only_where_parts_are) {
@@ -524,6 +529,21 @@ TEST(Explanation, of_an_order_names_a_direction_in_which_it_is_wrong) {
   EXPECT_NEAR(why.share, 4 * std::asin(1.0 / 5) / (4 * 3.14159265358979), 1e-12);
   EXPECT_EQ(explained(soup, question(Question::order, {0, 0, 2}), "0\n").refutation->words,
             "face 1 is missing in the order");
+}
+
+TEST(Explanation, of_an_order_that_is_all_wrong_looks_at_some_of_its_pairs) {
+  Polygon_soup soup;
+  std::string reversed;
+  for (int k = 0; k < 150; ++k) {
+    add_square(soup, 0, k);
+    reversed = std::to_string(k) + "\n" + reversed;
+  }
+  const Query above = question(Question::order, {0, 0, 500});
+  const Answer answer = read_answer(reversed, Question::order, soup.face_count());
+  const Grade grade = graded(soup, above, reversed);
+  ASSERT_EQ(grade.wrong_pairs.size(), 150u * 149 / 2);
+  EXPECT_NE(explain(soup, above, answer, grade, Contract::exact).share_words.find("summed over 10000 of 11175 pairs"),
+            std::string::npos);
 }
 
 TEST(Explanation, of_weak_visibility_is_a_sightline_or_what_stands_in_the_way) {
@@ -741,6 +761,22 @@ TEST(Rays, meet_the_upper_of_two_squares) {
   const Grade open = graded_rays(soup, down, "abstained\n0\n");
   EXPECT_EQ(open.abstained, (Faces{0}));
   EXPECT_EQ(open.wrong_rays.size(), 1u);
+}
+
+TEST(Rays, of_faces_on_the_same_points_meet_those_alone_that_repeat_the_face) {
+  // Two concave faces on four points, and the first of them again: the ray meets the second alone.
+  Polygon_soup soup;
+  for (const auto& [x, y] : {std::pair(0, 0), std::pair(8, 0), std::pair(0, 8), std::pair(2, 2)})
+    soup.add_point(x, y, 0.0);
+  soup.add_face(std::vector<Point_id>{0, 1, 3, 2});
+  soup.add_face(std::vector<Point_id>{0, 1, 2, 3});
+  soup.add_face(std::vector<Point_id>{1, 3, 2, 0});
+  const Query down = rays({{{3, 4, 5}, {0, 0, -1}}});
+  EXPECT_FALSE(graded_rays(soup, down, "1\n").wrong());
+  EXPECT_TRUE(graded_rays(soup, down, "0\n").wrong());
+  EXPECT_TRUE(graded_rays(soup, down, "2\n").wrong());
+  const Query both = rays({{{1, 1, 5}, {0, 0, -1}}, {{4, Rational(1, 2), 5}, {0, 0, -1}}});
+  EXPECT_FALSE(graded_rays(soup, both, "2\n0\n").wrong()) << "both halves of what repeats";
 }
 
 TEST(Rays, that_touch_follow_the_law_or_are_excused) {

@@ -95,6 +95,9 @@ TEST(Solids, are_asked_about_and_answered_in_off) {
   EXPECT_EQ(read("OFF\n0 0 0\n")->face_count(), 0u);
   EXPECT_EQ(read("OFF 3 1 0\n0 0 0\n0.5 0 0\n0 1 0\n3 0 1 2\n")->point(1)[0], Rational(1, 2));
   EXPECT_EQ(read("OFF 3 1 0\n0 0 0\n1/3 0 0\n0 1 0\n3 0 1 2\n")->point(1)[0], Rational(1, 3));
+  // Each number by itself, and comments with a slash.
+  EXPECT_EQ(read("OFF # of a/b\n3 1 0\n0 0 0\n1/3 0.5 0\n0 1e1 0\n3 0 1 2\n")->point(1),
+            (Exact_point{Rational(1, 3), Rational(1, 2), 0}));
   EXPECT_FALSE(read(" abstained\n"));
   EXPECT_FALSE(read("abstained all"));
   for (const char* bad : {"", "OFF", "OFF\n0 1 0\n3 0 1 2\n", "0\n1\n", "{\"visible\": [1]}"})

@@ -37,6 +37,18 @@ class Judge : public Program {
     EXPECT_EQ(j["result"]["failures"].size(), code == done ? 0u : 1u);
     return found;
   }
+
+  /// Whether a process whose number is in a file goes on, for five seconds.
+  static bool goes_on(const std::string& file) {
+    const std::string process = "/proc/" + std::to_string(std::stoi(read_file(file))) + "/stat";
+    const auto runs = [&] {  // a process that ended stays in the table as Z until somebody asks for it
+      const std::string stat = read_file(process);
+      const std::size_t name_end = stat.rfind(')');
+      return name_end != std::string::npos && stat.substr(name_end + 2, 1) != "Z";
+    };
+    for (int wait = 0; wait < 100 && runs(); ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    return runs();
+  }
 };
 
 TEST_F(Judge, marks_what_became_of_a_program) {
@@ -102,14 +114,44 @@ TEST_F(Judge, grades_within_the_limits_of_the_program) {
 TEST_F(Judge, ends_what_a_program_leaves_running) {
   const std::string left = path("left").string();
   EXPECT_EQ(mark("sleep 300 & echo $! > " + left + "; echo abstained all > $3", "exact", done), "abstained");
-  const std::string process = "/proc/" + std::to_string(std::stoi(read_file(left))) + "/stat";
-  const auto runs = [&] {  // a process that ended stays in the table as Z until somebody asks for it
-    const std::string stat = read_file(process);
-    const std::size_t name_end = stat.rfind(')');
-    return name_end != std::string::npos && stat.substr(name_end + 2, 1) != "Z";
+  EXPECT_FALSE(goes_on(left));
+}
+
+TEST_F(Judge, that_a_signal_ends_leaves_no_program_and_no_folder) {
+  const std::string left = path("left").string(), where = path("where").string();
+  const std::string script =
+      "sleep 300 & echo $! > " + left + "; dirname $1 > " + where + "; kill -TERM $PPID; sleep 300";
+  const Outcome r = run({"judge", "--program", shell(script), "--query", "see", "--contract", "exact", "--scenes",
+                         tower(), "--cases", "1"});
+  EXPECT_EQ(r.ended, "signal " + std::to_string(SIGTERM)) << r;
+  EXPECT_FALSE(goes_on(left));
+  std::string folder = read_file(where);
+  folder.pop_back();
+  EXPECT_NE(folder, "");
+  EXPECT_FALSE(fs::exists(folder)) << folder;
+}
+
+TEST_F(Judge, counts_the_memory_of_all_processes_and_what_they_share_once) {
+  if (sanitized) GTEST_SKIP() << "a process of the sanitizers' takes more";
+  // 40 MB in four processes that have it in common; and as much again in a child of a thread.
+  const auto marked = [&](const std::string& script) {
+    const std::string program = file("memory.py", script);
+    return judge("python3 " + program + " {scene} {query} {answer}",
+                 {"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--memory", "100"},
+                 done)["result"]["total"]["cases"];
   };
-  for (int wait = 0; wait < 100 && runs(); ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  EXPECT_FALSE(runs());
+  const std::string answer = "open(sys.argv[3], 'w').write('abstained all')\n";
+  EXPECT_EQ(marked("import os, sys, time\nheld = b'x' * (40 << 20)\n"
+                   "for k in range(4):\n  if os.fork() == 0:\n    time.sleep(0.3)\n    os._exit(0)\n"
+                   "for k in range(4): os.wait()\n" +
+                   answer)["abstained"],
+            1);
+  EXPECT_EQ(marked("import subprocess, sys, threading\n"
+                   "def child(): subprocess.run([sys.executable, '-c', "
+                   "'import time; held = b\"x\" * (150 << 20); time.sleep(3)'])\n"
+                   "t = threading.Thread(target=child)\nt.start()\nt.join()\n" +
+                   answer)["out of memory"],
+            1);
 }
 
 TEST_F(Judge, asks_a_share_of_the_cases_where_others_ask_the_rest) {
@@ -269,6 +311,7 @@ TEST_F(Judge, asks_about_scenes_and_keeps_what_went_wrong) {
   EXPECT_EQ(read_file(path("kept") / "smallest.answer"), "0\n");
   EXPECT_EQ(Json::parse(read_file(path("kept") / "smallest.json"))["query"], "see");
   EXPECT_EQ(read_file(path("kept") / "smallest.off"), read_file(tower()));
+  EXPECT_TRUE(fs::exists(path("kept") / "smallest.svg"));
   const std::string page = read_file(path("page.html"));
   EXPECT_NE(page.find("is broken in"), std::string::npos);
   EXPECT_NE(page.find("tower.off"), std::string::npos);
@@ -282,6 +325,24 @@ TEST_F(Judge, asks_about_scenes_and_keeps_what_went_wrong) {
   EXPECT_NE(s["again"].get<std::string>().find("--cases 1 --seed " + s["seed"].dump() + " --two-sided"),
             std::string::npos)
       << s;
+}
+
+TEST_F(Judge, keeps_no_picture_of_another_case_and_says_what_the_query_of_a_file_says) {
+  const std::string query = file("query.json", R"({"query": "see", "eye": [0, 0, 5], "two_sided": true})");
+  const auto asked = [&](const std::string& script) {
+    return judge(
+        shell(script),
+        {"--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", query, "--keep", path("kept").string()},
+        disagreement);
+  };
+  const Json wrong = asked("echo 0 > $3");
+  EXPECT_EQ(wrong["two_sided"], true);
+  EXPECT_TRUE(fs::exists(path("kept") / "smallest.svg"));
+  std::ofstream(path("kept") / "reduced.off") << "old";
+  asked("exit 1");  // of which there is neither a picture nor an answer
+  EXPECT_FALSE(fs::exists(path("kept") / "smallest.svg"));
+  EXPECT_FALSE(fs::exists(path("kept") / "smallest.answer"));
+  EXPECT_FALSE(fs::exists(path("kept") / "reduced.off"));
 }
 
 TEST_F(Judge, asks_what_rays_meet_first) {
