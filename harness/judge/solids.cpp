@@ -276,9 +276,10 @@ Grade grade_solid(const Solid_truth& truth, const Answer& answer) {
   }
   grade.wrong_visible.assign(shown.begin(), shown.end());
   grade.wrong_hidden.assign(hidden.begin(), hidden.end());
-  // 3. Volume and area.
-  grade.volume_error = nearest_double((volume(surface) - truth.volume) / truth.volume_scale);
-  grade.area_error = (middle_area(surface, truth.unit) - truth.area) / truth.area_scale;
+  // 3. Volume and area, of the same parts.
+  const Polygon_soup parts = oracle.parts();
+  grade.volume_error = nearest_double((volume(parts) - truth.volume) / truth.volume_scale);
+  grade.area_error = (middle_area(parts, truth.unit) - truth.area) / truth.area_scale;
   return grade;
 }
 

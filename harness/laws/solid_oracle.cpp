@@ -20,6 +20,17 @@ Solid_oracle::Solid_oracle(const Polygon_soup& soup) {
   }
 }
 
+Polygon_soup Solid_oracle::parts() const {
+  Polygon_soup soup;
+  std::vector<Point_id> loop;
+  for (const Flat_face& face : faces_) {
+    loop.clear();
+    for (const Exact_point& p : face.corners) loop.push_back(soup.add_point(p[0], p[1], p[2]));
+    soup.add_face(loop);
+  }
+  return soup;
+}
+
 bool Solid_oracle::is_on_a_face(const Exact_point& p) const {
   return std::any_of(faces_.begin(), faces_.end(), [&](const Flat_face& face) { return face.holds(p); });
 }

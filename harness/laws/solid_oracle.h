@@ -18,6 +18,8 @@ class Solid_oracle {
 
   /// Faces with area that bound nothing: they cross themselves.
   const std::vector<Face_id>& unusable() const { return unusable_; }
+  /// The convex parts, each with points of its own.
+  Polygon_soup parts() const;
   bool is_on_a_face(const Exact_point& p) const;
   /// Pre: !is_on_a_face(p), and the surface is closed.
   int winding(const Exact_point& p, generate::Random& random) const;

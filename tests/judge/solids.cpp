@@ -283,6 +283,31 @@ TEST(Solids, may_be_rounded_and_nothing_more) {
   EXPECT_DOUBLE_EQ(graded_surface(none, corner_box).volume_error, 0.5);
 }
 
+TEST(Solids, of_which_a_face_is_not_planar_are_measured_where_their_points_are) {
+  // A pyramid of four sides; two of them together are one face, wherever its loop begins.
+  Polygon_soup pyramid;
+  for (const auto& [x, y, z] : {std::array{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}, {4, 4, 8}})
+    pyramid.add_point(Rational(x), Rational(y), Rational(z));
+  for (const std::vector<Point_id>& loop :
+       {std::vector<Point_id>{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}})
+    pyramid.add_face(loop);
+  const Asked_solids of = asked(pyramid, pyramid, Set_operation::unite);
+  std::set<std::pair<std::size_t, double>> found;
+  for (std::size_t turn = 0; turn < 4; ++turn) {
+    Polygon_soup answer;
+    answer.coordinates = pyramid.coordinates;
+    for (const std::vector<Point_id>& loop : {std::vector<Point_id>{0, 3, 2, 1}, {2, 3, 4}, {3, 0, 4}})
+      answer.add_face(loop);
+    std::vector<Point_id> bent{0, 1, 2, 4};
+    std::rotate(bent.begin(), bent.begin() + static_cast<std::ptrdiff_t>(turn), bent.end());
+    answer.add_face(bent);
+    const Grade grade = graded_surface(of, answer);
+    found.emplace(grade.wrong_points.size(), grade.volume_error);
+    EXPECT_EQ(grade.wrong_points.empty(), grade.volume_error == 0);
+  }
+  EXPECT_EQ(found.size(), 1u);
+}
+
 /// What is asked about a family, far from degenerate or not.
 std::vector<std::pair<Case, std::string>> some_cases() {
   std::vector<std::pair<Case, std::string>> cases;
