@@ -19,7 +19,7 @@ namespace fuzz {
 inline void judged(std::string_view bytes) {
   using namespace judged_laws;
   using Law = void (*)(generate::Random&);
-  static constexpr std::array<Law, 18> laws{try_case_of_a_family,
+  static constexpr std::array<Law, 19> laws{try_case_of_a_family,
                                             try_case_of_a_scene,
                                             try_grade_of_faces,
                                             try_grade_of_an_order,
@@ -36,7 +36,8 @@ inline void judged(std::string_view bytes) {
                                             try_why_not_weakly_visible,
                                             try_why_not_in_order,
                                             try_why_not_met,
-                                            try_rounded_source};
+                                            try_rounded_source,
+                                            try_part_beside_its_plane};
   Bytes from(bytes);
   const std::size_t kind = from.below(laws.size());
   generate::Random random(from.word());

@@ -90,6 +90,41 @@ inline void try_grade_of_an_order(Random& random) {
           "wrongly visible are those that are drawn too late");
 }
 
+inline void try_part_beside_its_plane(Random& random) {
+  const std::optional<Asked> asked = any_asked(Question::order, random);
+  if (!asked) return;
+  judge::Answer answer = Any_order(*asked, random).answer();
+  if (answer.order.empty()) return;
+  // 1. A face of one piece, drawn as a part that is all of it.
+  judge::Drawn_face& drawn = answer.order[random.below(answer.order.size())];
+  const auto owner = std::find(asked->owners.begin(), asked->owners.end(), drawn.face);
+  if (std::count(owner, asked->owners.end(), drawn.face) != 1) return;
+  const Flat_face& face = asked->pieces[static_cast<std::size_t>(owner - asked->owners.begin())];
+  drawn.part = face.corners;
+  const Grade on = judge::grade(asked->truth, answer);
+  // 2. The same with a corner beside the plane.
+  std::size_t axis = 0;
+  Rational size = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (abs(face.normal[axis]) < abs(face.normal[k])) axis = k;
+    for (const Exact_point& p : face.corners)
+      for (const Exact_point& q : face.corners) size = std::max(size, Rational(p[k] - q[k]));
+  }
+  const Rational most = size / (1 << 20) * (random.chance(1, 2) ? 1 : -1);
+  const std::array<Rational, 3> shares{Rational(7, 8), 1, Rational(9, 8)};
+  const Rational share = shares[random.below(shares.size())];
+  drawn.part[random.below(drawn.part.size())][axis] += most * share;
+  const Grade beside = judge::grade(asked->truth, answer);
+  require(beside.wrong_pairs == on.wrong_pairs && beside.wrong_hidden == on.wrong_hidden,
+          "a part stands for what it is on its face's plane");
+  Face_ids shown = on.wrong_visible;
+  if (share > 1 && !holds(shown, drawn.face)) {
+    shown.push_back(drawn.face);
+    std::sort(shown.begin(), shown.end());
+  }
+  require(beside.wrong_visible == shown, "a part is wrong iff it is beside its plane by more than 2^-20 of the face");
+}
+
 inline void try_contracts(Random& random) {
   Grade grade;
   if (random.chance(1, 2)) grade.wrong_visible = {static_cast<Face_id>(random.below(3))};
