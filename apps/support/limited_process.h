@@ -2,6 +2,8 @@
 // Somebody else's program, run in a process group of its own with limits on time and memory; and a folder for its
 // files.
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -42,6 +44,10 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
 /// the copy has none of this one's. Errors: std::runtime_error where there can be no process.
 Process_end work_limited(const std::function<std::string()>& work, const Process_limits& limits,
                          const std::filesystem::path& output);
+
+/// In a process that has just been forked: it ends with the thread that forked it, and now where that is gone already.
+/// Safe between fork and exec.
+void end_with_parent(pid_t parent);
 
 /// A folder that is gone at the end.
 class Temporary_folder {
