@@ -16,9 +16,11 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <set>
+#include <sstream>
 
 namespace sightline::app {
 
@@ -38,8 +40,7 @@ static Verdict verdict_on(const Polygon_soup& soup, const Along_certificate& cla
   return verify_along(soup, claim, options);
 }
 
-static Certificate certificate_of(const std::string& file) {
-  std::ifstream in = open_bytes(input_path(file));
+static Certificate certificate_of(std::istream& in, const std::string& file) {
   try {
     return read_certificate(in);
   } catch (const Certificate_error& error) {
@@ -187,7 +188,8 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
     progress(i, chosen.size());
     if (limit.is_over()) throw Out_of_budget(fmt::format("the budget ran out after {} of {} cells", i, chosen.size()));
     const Cell_entry& entry = cells[chosen[i]];
-    const Certificate certificate = certificate_of(entry.file);
+    std::ifstream in = open_bytes(entry.file);
+    const Certificate certificate = certificate_of(in, entry.file);
     const Weak_certificate* const claim = std::get_if<Weak_certificate>(&certificate);
     if (claim == nullptr)
       throw Input_error::of_file(entry.file, "is no certificate of weak visibility; write the folder again");
@@ -273,16 +275,34 @@ class Format_finder : public nlohmann::json::json_sax_t {
   bool is_next_ = false;
 };
 
-/// Whether a file is what `boolean --certificate` writes: of one solid there is no other to tell.
-static bool is_of_solids(const std::string& file) {
-  if (file == "-") return false;  // can be read but once
-  std::ifstream in = open_bytes(input_path(file));
+/// An input that can be read again from its beginning: what cannot (standard input, another pipe) is held.
+static std::unique_ptr<std::istream> open_to_rewind(const std::string& file) {
+  const std::filesystem::path path = input_path(file);
+  if (std::filesystem::is_regular_file(path)) return std::make_unique<std::ifstream>(open_bytes(path));
+  return std::make_unique<std::istringstream>(read_input(file));
+}
+
+/// Whether it is what `boolean --certificate` writes: of one solid there is no other to tell. The stream is at its
+/// beginning again.
+static bool is_of_solids(std::istream& in) {
   Format_finder finder;
   nlohmann::json::sax_parse(in, &finder);
+  in.clear();
+  in.seekg(0);
   return finder.format.starts_with("sightline boolean");
 }
 
-static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common, const std::string& file,
+static Solid_certificate solid_certificate_of(std::istream& in, const std::string& file) {
+  std::ostringstream text;
+  text << in.rdbuf();
+  try {
+    return read_solid_certificate(std::move(text).str());
+  } catch (const std::invalid_argument& error) {
+    throw Input_error::of_file(file, std::string(error.what()) + "; make the certificate again");
+  }
+}
+
+static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common, const Solid_certificate& certificate,
                                  const Solid_files& files, const Verify_options& options) {
   Read_options reading;
   reading.round_to_double = common.coordinates == "double";
@@ -293,12 +313,6 @@ static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common,
     reading.any_denominator = true;  // each of its new points has one of its own
     result = common.format.read(files.result, reading);
   }
-  Solid_certificate certificate;
-  try {
-    certificate = read_solid_certificate(read_input(file));
-  } catch (const std::invalid_argument& error) {
-    throw Input_error::of_file(file, std::string(error.what()) + "; make the certificate again");
-  }
   return verify_solids(solids, certificate, result ? &*result : nullptr, options);
 }
 
@@ -306,23 +320,29 @@ static Exit run(const Common& common, const std::string& file, const Solid_files
   if (std::filesystem::is_directory(file)) return run_folder(common, file, sample);
   if (sample > 0) throw Usage_error("--sample is for a folder of certificates; this is a file");
   const Polygon_soup soup = common.read();
-  const bool of_solids = !files.others.empty() || !files.result.empty() || is_of_solids(file);
-  const Certificate certificate = of_solids ? Certificate() : certificate_of(file);
+  Certificate certificate;
+  Solid_certificate solids;
+  const std::unique_ptr<std::istream> in = open_to_rewind(file);
+  const bool of_solids = !files.others.empty() || !files.result.empty() || is_of_solids(*in);
+  if (of_solids) solids = solid_certificate_of(*in, file);
+  else certificate = certificate_of(*in, file);
   const Stopwatch watch;
   Progress progress("verifying");
   Verify_options options;
   options.threads = common.threads;
   options.progress = common.within_budget(progress);
   const Verdict verdict =
-      of_solids ? verdict_on_solids(soup, common, file, files, options)
+      of_solids ? verdict_on_solids(soup, common, solids, files, options)
                 : std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
   const double seconds = watch.seconds();
   progress.clear();
   const Exit exit = verdict.accepted ? Exit::done : Exit::disagreement;
   Json result{{"accepted", verdict.accepted}, {"why", verdict.why}, {"fragments", verdict.fragments}};
   if (!common.json.empty()) {
-    const Json counters{
-        {"fragments", std::visit([](const Covering& covering) { return covering.fragments.size(); }, certificate)}};
+    const std::size_t fragments =
+        of_solids ? solids.fragments.size()
+                  : std::visit([](const Covering& covering) { return covering.fragments.size(); }, certificate);
+    const Json counters{{"fragments", fragments}};
     if (write_json(common, "verify", Scene(soup), result, counters, {{"verify", seconds}})) return exit;
   }
   row(verdict.accepted ? "accepted" : "REJECTED", verdict.why);

@@ -3,6 +3,8 @@
 
 #include "compare.h"
 
+#include "../support/limited_process.h"
+
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -26,9 +28,10 @@ Json ask_apart(const Contestant& contestant, double seconds, std::uint64_t bytes
   };
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe to be had");
-  const pid_t child = fork();
+  const pid_t parent = getpid(), child = fork();
   if (child < 0) throw std::runtime_error("no process to be had");
   if (child == 0) {
+    end_with_parent(parent);
     close(ends[0]);
     if (bytes > 0) limit_addresses(bytes);
     std::string text;
@@ -91,6 +94,51 @@ Exit ask(const Trial& trial, double budget, Json& rows) {
   return disagree ? Exit::disagreement : undecided ? Exit::undecided : Exit::done;
 }
 
+/// An option that not all questions take.
+struct Own_option {
+  const char* name;
+  std::vector<std::string> questions;
+};
+static const std::vector<Own_option> own_options{{"--eye", {"order", "see", "render"}},
+                                                 {"--kernels", {"order", "bsp", "see", "weak", "render"}},
+                                                 {"--max-fragments", {"order"}},
+                                                 {"--sizes", {"see"}},
+                                                 {"--bits", {"see", "render"}},
+                                                 {"--samples", {"render"}},
+                                                 {"--near", {"see"}},
+                                                 {"--far", {"see"}},
+                                                 {"--from-face", {"weak"}},
+                                                 {"--from", {"weak"}},
+                                                 {"--from-volume", {"weak"}},
+                                                 {"--from-faces", {"weak"}},
+                                                 {"--two-sided", {"weak"}},
+                                                 {"--rays", {"weak", "pvs"}},
+                                                 {"--cells", {"weak"}},
+                                                 {"--event-edges", {"weak"}},
+                                                 {"--random", {"trace"}},
+                                                 {"--ray-file", {"trace"}},
+                                                 {"--svg", {"weak", "render"}},
+                                                 {"--colours", {"render"}},
+                                                 {"--alpha", {"render"}},
+                                                 {"--look", {"render"}},
+                                                 {"--up", {"render"}},
+                                                 {"--field", {"render"}},
+                                                 {"--shade", {"render"}},
+                                                 {"--size", {"weak", "render"}},
+                                                 {"--background", {"weak", "render"}}};
+
+/// Errors: Usage_error for an option that would be passed over.
+static void check_options(const Command& command, const std::string& question) {
+  for (const Own_option& option : own_options)
+    if (command.given(option.name) &&
+        std::find(option.questions.begin(), option.questions.end(), question) == option.questions.end())
+      throw Usage_error(fmt::format("{0} is of compare {1}; leave it out of compare {2}", option.name,
+                                    fmt::join(option.questions, ", "), question));
+  for (const char* option : {"--size", "--background"})
+    if (question == "weak" && command.given(option) && !command.given("--svg"))
+      throw Usage_error(fmt::format("{} is of a picture: add --svg FILE, or leave it out", option));
+}
+
 void add_compare(Command program) {
   const Command command = program.add_command(
       "compare", "The same question to several kernels and methods: seconds, memory, and errors against exact");
@@ -151,13 +199,16 @@ void add_compare(Command program) {
                   "are asked where no pair has more")
       .check(whole_number())
       .show_default();
-  command
-      .add_option(
-          "--random", a->random,
-          "trace: so many rays of each kind: anywhere, to corners, to edges, along faces, from faces, from afar")
-      .check(whole_number() & range(1, 10'000'000))
-      .show_default();
-  command.add_option("--ray-file", a->ray_file, "trace: instead, a file with X,Y,Z,DX,DY,DZ a line").reads_file();
+  const Option random =
+      command
+          .add_option(
+              "--random", a->random,
+              "trace: so many rays of each kind: anywhere, to corners, to edges, along faces, from faces, from afar")
+          .check(whole_number() & range(1, 10'000'000))
+          .show_default();
+  command.add_option("--ray-file", a->ray_file, "trace: instead, a file with X,Y,Z,DX,DY,DZ a line")
+      .reads_file()
+      .excludes(random);
   command.add_option("--svg", a->svg, "weak, render: plot the seconds and the errors").writes_file(".svg");
   command
       .add_option("--html", a->html,
@@ -201,7 +252,8 @@ void add_compare(Command program) {
       "--budget is for each kernel or method, and anew for its sizes. Threads: 1 unless given. Exit code 1: one that "
       "claims to be exact was "
       "not.");
-  command.set_action([a, kernels] {
+  command.set_action([a, kernels, command] {
+    check_options(command, a->command);
     a->kernels_given = kernels.given();
     a->says = !a->html.empty() && (a->command == "see" || a->command == "weak");
     if (a->command == "render") return compare_images(*a);

@@ -29,6 +29,7 @@ struct Compare_arguments {
   Tint_arguments tints;
   std::string ray_file;
   std::size_t random = 1000;           ///< rays of each kind
+  std::vector<Exact_ray> own_rays;     ///< of report's question trace: instead, where there are some
   std::optional<judge::Query> solids;  ///< of report's question boolean: what is asked of the scene's two solids
   /// Rows hold the answer too: of order, see, weak as "said"; of render, trace, cutset and pvs the faces that it has
   /// wrong as "wrong_faces": {"missing": {"faces", "name"}, "extra": the same, "words"}, of cutset and pvs "at", the

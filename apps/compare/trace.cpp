@@ -35,9 +35,10 @@ Asked_rays rays_of(const Compare_arguments& arguments, const Polygon_soup& soup)
     asked.kind.push_back(asked.kinds.size() - 1);
     asked.rays.push_back(ray);
   };
-  if (!arguments.ray_file.empty()) {
+  if (!arguments.ray_file.empty() || !arguments.own_rays.empty()) {
     asked.kinds.push_back("file");
-    for (const Exact_ray& ray : read_rays(arguments.ray_file)) add(ray);
+    for (const Exact_ray& ray : arguments.ray_file.empty() ? arguments.own_rays : read_rays(arguments.ray_file))
+      add(ray);
     return asked;
   }
   generate::Random random(arguments.common.seed);

@@ -91,26 +91,27 @@ Exit run(const Reduce_arguments& arguments) {
       for (std::size_t at = word.find(mark); at != std::string::npos; at = word.find(mark, at + file.size()))
         word.replace(at, mark.size(), file);
   const auto code_for = [&](const generate::Posed_scene& smaller) -> int {
-    try {
-      std::ostringstream text;
-      write_scene(smaller.soup, text, *format);
-      write_temporary(scene_file, text.view());
-    } catch (const Not_representable&) {
-      return 0;  // not a scene that can be handed over
-    }
+    std::ostringstream text;
+    write_scene(smaller.soup, text, *format);
+    write_temporary(scene_file, text.view());
     if (!arguments.query.empty())
       write_temporary(query_file, to_text(harness::query_json(smaller, query.seed), 1) + "\n");
     return exit_code_of(words, arguments.limit);
   };
-  const auto fails = [&](const generate::Posed_scene& smaller) {
-    const int code = code_for(smaller);
+  const auto is_failure = [&](int code) {
     return arguments.code < 0 ? code != 0 && code != timed_out : code == arguments.code;
   };
+  const auto fails = [&](const generate::Posed_scene& smaller) {
+    try {
+      return is_failure(code_for(smaller));
+    } catch (const Not_representable&) {
+      return false;  // not a scene that can be handed over
+    }
+  };
 
-  if (!fails(scene)) {
+  if (const int code = code_for(scene); !is_failure(code)) {
     std::cerr << fmt::format("sightline: the program does not fail on {}: its exit code is {}, {} is wanted\n",
-                             arguments.scene, code_for(scene),
-                             arguments.code < 0 ? "any but 0" : std::to_string(arguments.code));
+                             arguments.scene, code, arguments.code < 0 ? "any but 0" : std::to_string(arguments.code));
     return Exit::disagreement;
   }
   Countdown time("reducing", arguments.seconds);

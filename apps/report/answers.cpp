@@ -115,17 +115,20 @@ Answered answered(const Unit& unit, const Report_asking& asking) {
       arguments.common.threads = 1;
       arguments.common.budget = asking.limits.seconds;
       const std::unique_ptr<Trial> trial = unit.question->trial(arguments, asked->soup);
-      for (const Contestant& contestant : trial->contestants)
-        table.add(contestant.name, verdict_of(*unit.question, *trial, contestant, faces, asking.limits), seed, faces);
-      for (const Report_program& program : asking.programs) {
-        if (program.question != unit.question->name) continue;
-        const Contestant contestant = contestant_of(program, asked, seed);
-        table.add(contestant.name, verdict_of(*unit.question, *trial, contestant, faces, asking.limits), seed, faces);
-      }
+      const auto ask = [&](const Contestant& contestant) {
+        const Report_verdict verdict = verdict_of(*unit.question, *trial, contestant, faces, asking.limits);
+        if (verdict.kind == Report_verdict::not_asked && !verdict.why_not_asked.empty())
+          leave_out(verdict.why_not_asked);
+        table.add(contestant.name, verdict, seed, faces);
+      };
+      for (const Contestant& contestant : trial->contestants) ask(contestant);
+      for (const Report_program& program : asking.programs)
+        if (program.question == unit.question->name) ask(contestant_of(program, asked, seed));
     } catch (const Out_of_budget&) {
       leave_out("the truth takes longer than --limit");
     } catch (const Usage_error& error) {
-      if (std::string_view(error.what()).starts_with("--program")) throw;
+      const std::string_view what = error.what();
+      if (what.starts_with("--program") || what.starts_with("--ask")) throw;  // of the command line, not of the scene
       leave_out(error.what());
     } catch (const std::invalid_argument& error) {
       leave_out(error.what());

@@ -65,11 +65,11 @@ struct Solid_trial : Trial {
 }  // namespace
 
 double solid_error(const judge::Grade& grade) {
-  // JSON has no infinity.
-  return std::min(
-      std::numeric_limits<double>::max(),
-      std::max({std::fabs(grade.volume_error), std::fabs(grade.area_error),
-                static_cast<double>(grade.wrong_points.size()) / std::max(1.0, static_cast<double>(grade.judged))}));
+  // JSON has no infinity; and a mean of very many of these is finite, too.
+  constexpr double most = 1e290;
+  return std::min(most, std::max({std::fabs(grade.volume_error), std::fabs(grade.area_error),
+                                  static_cast<double>(grade.wrong_points.size()) /
+                                      std::max(1.0, static_cast<double>(grade.judged))}));
 }
 
 std::unique_ptr<Trial> boolean_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {

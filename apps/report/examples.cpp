@@ -87,7 +87,10 @@ class Witness {
   }
 
   /// Whether what is asked stands in a file beside the scene.
-  bool asks_by_file() const { return program_ != nullptr || row_.who.question == "boolean"; }
+  bool asks_by_file() const {
+    return program_ != nullptr || row_.who.question == "boolean" ||
+           (row_.who.question == "trace" && options_.effort.own_query);
+  }
 
  private:
   const report::Row& row_;

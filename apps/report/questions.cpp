@@ -22,7 +22,6 @@ Compare_arguments order_arguments(const Judge_case& asked, const Report_effort&)
   Compare_arguments a;
   a.command = "order";
   a.eye = point_text(asked.query.eye);
-  a.max_fragments = 600;
   return a;
 }
 Report_verdict order_judged(const Json& row, std::size_t) {
@@ -35,6 +34,9 @@ Report_verdict order_judged(const Json& row, std::size_t) {
     wrong = wrong || pairs > 0;
     error = std::max(error, pairs);
   }
+  if (!wrong && e["pairs_wrong_beyond_rounding"].is_null())
+    return {.why_not_asked = fmt::format("an order of more than {} fragments by {} is compared in no pair",
+                                         Compare_arguments().max_fragments, row["kernel"].get<std::string>())};
   return {wrong ? Report_verdict::wrong : Report_verdict::right, error};
 }
 std::string order_again(const Compare_arguments& a, const Json& name) {
@@ -44,6 +46,10 @@ std::string order_again(const Compare_arguments& a, const Json& name) {
 // ---- see
 
 Compare_arguments see_arguments(const Judge_case& asked, const Report_effort& effort) {
+  if (asked.query.two_sided)
+    throw Usage_error(
+        "--ask: methods of see are asked which fronts are seen, not \"two_sided\"; ask a program by `sightline judge "
+        "--ask`, or make it false");
   Compare_arguments a;
   a.command = "see";
   a.eye = point_text(asked.query.eye);
@@ -98,6 +104,7 @@ Compare_arguments weak_arguments(const Judge_case& asked, const Report_effort& e
   std::string source;
   for (const Exact_point& p : asked.query.source) source += (source.empty() ? "" : " ") + point_text(p);
   a.sources.polygons = {source};
+  a.sources.two_sided = asked.query.two_sided;
   a.rays = effort.weak_rays;
   return a;
 }
@@ -110,16 +117,18 @@ Report_verdict weak_judged(const Json& row, std::size_t faces) {
           wrong / std::max(1.0, static_cast<double>(faces))};
 }
 std::string weak_again(const Compare_arguments& a, const Json& name) {
-  return fmt::format("weak --from=\"{}\" --kernels {}{}", a.sources.polygons[0], name["kernel"].get<std::string>(),
+  return fmt::format("weak --from=\"{}\"{} --kernels {}{}", a.sources.polygons[0],
+                     a.sources.two_sided ? " --two-sided" : "", name["kernel"].get<std::string>(),
                      name.contains("rays") ? fmt::format(" --rays {}", name["rays"].get<std::size_t>()) : "");
 }
 
 // ---- trace
 
-Compare_arguments trace_arguments(const Judge_case&, const Report_effort& effort) {
+Compare_arguments trace_arguments(const Judge_case& asked, const Report_effort& effort) {
   Compare_arguments a;
   a.command = "trace";
   a.random = effort.rays;
+  if (effort.own_query) a.own_rays = asked.query.rays;
   return a;
 }
 Report_verdict trace_judged(const Json& row, std::size_t) {
@@ -127,7 +136,10 @@ Report_verdict trace_judged(const Json& row, std::size_t) {
   const double wrong = e["missed"].get<double>() + e["invented"].get<double>() + e["wrong_face"].get<double>();
   return {wrong > 0 ? Report_verdict::wrong : Report_verdict::right, wrong / std::max(1.0, e["rays"].get<double>())};
 }
-std::string trace_again(const Compare_arguments& a, const Json&) { return fmt::format("trace --random {}", a.random); }
+std::string trace_again(const Compare_arguments& a, const Json&) {
+  return a.own_rays.empty() ? fmt::format("trace --random {}", a.random)
+                            : "--questions trace --cases 1 --reduce 1 --json -";
+}
 
 // ---- cutset
 
@@ -234,8 +246,10 @@ std::string method_of(const Json& name) {
 
 Report_verdict verdict_of(const Report_question& question, const Trial& trial, const Contestant& contestant,
                           std::size_t faces, const Report_limits& limits) {
-  // What judges the answer takes its time too, beside the method.
-  const Json row = ask_apart(contestant, 4 * limits.seconds + 5, limits.bytes);
+  // What judges the answer takes its time too, beside the method. A program may name more addresses than it uses; its
+  // court counts what it uses.
+  const bool is_program = contestant.name["kernel"] == "program";
+  const Json row = ask_apart(contestant, 4 * limits.seconds + 5, is_program ? 0 : limits.bytes);
   const std::string status = row["status"].get<std::string>();
   if (status.starts_with("left out")) return {};
   if (status == "timed out" || status == "out of memory") return {Report_verdict::stopped};
@@ -243,17 +257,15 @@ Report_verdict verdict_of(const Report_question& question, const Trial& trial, c
   const bool promises = claims_to_be_exact(row);
   if (status != "done") return {.kind = Report_verdict::crashed, .broken = promises};
   Report_verdict verdict =
-      row["kernel"] == "program"
-          ? Report_verdict{static_cast<Report_verdict::Kind>(row["kind"].get<int>()), row["error"].get<double>()}
-          : question.judged(row, faces);
+      is_program ? Report_verdict{static_cast<Report_verdict::Kind>(row["kind"].get<int>()), row["error"].get<double>()}
+                 : question.judged(row, faces);
   verdict.seconds = row["seconds"].get<double>() + row.value("prepare", 0.0);
   verdict.peak_bytes = row["peak_bytes"].get<std::uint64_t>();
   if (row.contains("said")) verdict.said = row["said"];
   if (row.contains("wrong_faces")) verdict.wrong_faces = row["wrong_faces"];
   verdict.broken = promises && row.contains("errors") && !trial.right(row);
   if (verdict.broken) verdict.kind = Report_verdict::wrong;
-  if (verdict.kind != Report_verdict::not_asked && verdict.seconds > limits.seconds)
-    verdict.kind = Report_verdict::stopped;
+  if (verdict.seconds > limits.seconds) verdict.kind = Report_verdict::stopped;
   return verdict;
 }
 

@@ -21,6 +21,7 @@ struct Report_effort {
   std::vector<std::size_t> weak_rays;       ///< weak: random rays of `sample`
   std::size_t rays;                         ///< trace: of each kind
   std::size_t views;                        ///< cutset: along a path
+  bool own_query = false;                   ///< what is asked is somebody's (--ask), and methods are asked just that
 };
 Report_effort report_effort(bool quick);
 
@@ -36,7 +37,8 @@ struct Report_verdict {
   double error = 0;  ///< the share of the answer that is wrong, as the question has it
   double seconds = 0;
   std::uint64_t peak_bytes = 0;
-  bool broken = false;  ///< it claims to be exact, and its answer is not what that promises
+  std::string why_not_asked = {};  ///< of not_asked: to be counted; empty: it is no answer to count
+  bool broken = false;             ///< it claims to be exact, and its answer is not what that promises
   /// The answer, and of questions that `judge` does not ask the faces that it has wrong (Compare_arguments::says),
   /// where the arguments ask for it; or null.
   Json said = nullptr, wrong_faces = nullptr;

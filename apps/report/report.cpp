@@ -51,10 +51,18 @@ void write(const Report_arguments& a, const report::Report& report) {
       if (!e.query.empty()) write_file(fs::path(file).replace_extension(".json").string(), e.query);
     }
   }
+  // First what all else can be made of again (--merge).
+  if (!a.json.empty()) write_file(a.json, to_text(report::to_json(report), 1) + "\n");
   if (!a.html.empty()) write_file(a.html, report::report_page(report, scenes_within()));
   if (!a.svg.empty()) write_file(a.svg, report::report_picture(report));
-  if (!a.json.empty()) write_file(a.json, to_text(report::to_json(report), 1) + "\n");
   if (!a.quiet) print(report);
+}
+
+/// Of a report that is whole.
+Exit exit_of(const report::Report& report) {
+  const bool broken =
+      std::any_of(report.rows.begin(), report.rows.end(), [](const report::Row& row) { return row.broken > 0; });
+  return broken ? Exit::disagreement : Exit::done;
 }
 
 Exit merge(const Report_arguments& a) {
@@ -66,12 +74,14 @@ Exit merge(const Report_arguments& a) {
       throw std::runtime_error(file + ": " + error.what() + "; give what `sightline report --json` wrote");
     }
   }
+  report::Report all;
   try {
-    write(a, report::merged(parts));
+    all = report::merged(parts);
   } catch (const std::invalid_argument& error) {
     throw std::runtime_error(std::string("--merge: ") + error.what());
   }
-  return Exit::done;
+  write(a, all);
+  return exit_of(all);
 }
 
 /// Fills in what was not given.
@@ -179,8 +189,12 @@ Exit run(const Report_arguments& given) {
     throw Usage_error("--resume keeps what is done beside an output: name it with --json FILE");
   if (!given.ask.empty() && (given.scenes.empty() || given.questions.size() != 1))
     throw Usage_error("--ask wants a scene, and its one question in --questions");
+  for (const char* question : {"cutset", "pvs"})
+    if (!given.ask.empty() && given.questions[0] == question)
+      throw Usage_error(fmt::format("--ask: no query says what {} is asked; leave it out", question));
   const Report_arguments a = completed(given);
   Report_asking asking{a, shard_of(a.shard), report_effort(a.quick), {a.limit, a.memory << 20}, {}};
+  asking.effort.own_query = !a.ask.empty();
   asking.programs = programs_of(a, asking.limits);
 
   // 1. Every unit of this shard that is not done.
@@ -219,9 +233,7 @@ Exit run(const Report_arguments& given) {
                         : fmt::format("; {} more were of files that have changed since, and were asked again",
                                       kept->changed())));
   if (!a.quiet) row("seconds", fmt::format("{:.1f}", report.seconds));
-  const bool broken =
-      std::any_of(report.rows.begin(), report.rows.end(), [](const report::Row& row) { return row.broken > 0; });
-  return broken ? Exit::disagreement : Exit::done;
+  return exit_of(report);
 }
 
 }  // namespace

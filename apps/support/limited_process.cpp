@@ -69,16 +69,17 @@ rlim_t processor_seconds(const Process_limits& limits) {
 }
 
 /// In the child: a group of its own, which ends with this process.
-void keep_apart(rlim_t processor_seconds) {
+void keep_apart(pid_t parent, rlim_t processor_seconds) {
   setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  end_with_parent(parent);
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, processor_seconds);
 }
 
 /// In the child, between fork and exec: only what is safe there. Does not return.
-[[noreturn]] void become(const std::vector<char*>& argv, int input, int output, int report, rlim_t processor_seconds) {
-  keep_apart(processor_seconds);
+[[noreturn]] void become(const std::vector<char*>& argv, int input, int output, int report, pid_t parent,
+                         rlim_t processor_seconds) {
+  keep_apart(parent, processor_seconds);
   signal(SIGXFSZ, SIG_DFL);
   set_limit(RLIMIT_FSIZE, rlim_t{256} << 20);
   dup2(input, 0);
@@ -191,6 +192,11 @@ static Process_end end_of(pid_t child, const Process_limits& limits) {
   return end;
 }
 
+void end_with_parent(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);  // it ended before that
+}
+
 /// A child of this process, in a group of its own; 0 in the child.
 static pid_t forked() {
   const pid_t child = fork();
@@ -214,8 +220,8 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
 
   // 1. Start it. The pipe closes by itself once the program runs, so that nothing of this process is measured.
   const rlim_t seconds = processor_seconds(limits);
-  const pid_t child = forked();
-  if (child == 0) become(argv, input.number, output.number, to.number, seconds);
+  const pid_t parent = getpid(), child = forked();
+  if (child == 0) become(argv, input.number, output.number, to.number, parent, seconds);
   to.close_now();
   int error = 0;
   if (read(from.number, &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
@@ -236,10 +242,10 @@ Process_end work_limited(const std::function<std::string()>& work, const Process
   with_own.bytes += process_memory("self", "VmRSS");
   Descriptor nowhere(open("/dev/null", O_WRONLY | O_CLOEXEC));
   const rlim_t seconds = processor_seconds(limits);
-  const pid_t child = forked();
+  const pid_t parent = getpid(), child = forked();
   if (child > 0) return end_of(child, with_own);
   // The copy. It leaves without cleaning up: what there is belongs to this process, which does.
-  keep_apart(seconds);
+  keep_apart(parent, seconds);
   dup2(nowhere.number, 1);
   dup2(nowhere.number, 2);
   int code = 1;

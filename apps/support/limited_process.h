@@ -2,6 +2,8 @@
 // Somebody else's program, run in a process group of its own with limits on time and memory; and a folder for its
 // files.
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -44,7 +46,11 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
 Process_end work_limited(const std::function<std::string()>& work, const Process_limits& limits,
                          const std::filesystem::path& output);
 
-/// A folder that is gone at the end. Pre: one at a time.
+/// In a process that has just been forked: it ends with the thread that forked it, and now where that is gone already.
+/// Safe between fork and exec.
+void end_with_parent(pid_t parent);
+
+/// A folder that is gone at the end; of several a signal removes the last that was made.
 class Temporary_folder {
  public:
   Temporary_folder();

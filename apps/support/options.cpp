@@ -189,6 +189,7 @@ static std::vector<Named_file> files_of(const CLI::App& app, std::string_view ki
 static bool have_standard(const std::vector<Named_file>& files) {
   return std::any_of(files.begin(), files.end(), [](const Named_file& file) { return file.name == "-"; });
 }
+bool Command::given(std::string_view option) const { return app_->count(std::string(option)) > 0; }
 bool Command::writes_standard_output() const { return have_standard(files_of(*app_, output_file)); }
 bool Command::reads_standard_input() const { return have_standard(files_of(*app_, input_file)); }
 

@@ -120,6 +120,7 @@ class Command {
   void footer(std::string_view text) const;  ///< of its help
   Command_words words() const;
   std::vector<Command_words> commands() const;  ///< of a program, in the order in which they were added
+  bool given(std::string_view option) const;    ///< once the command line is read
   bool writes_standard_output() const;          ///< once the command line is read: an output is "-"
   bool reads_standard_input() const;            ///< the same of what is read
   /// Holds outputs that no option names to the files of the command line and to each other, as check_files does. Once

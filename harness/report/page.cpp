@@ -3,7 +3,9 @@
 #include <sightline/harness/report/page_text.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace sightline::report {
 
@@ -26,11 +28,12 @@ class Names {
   std::vector<std::string> names_;
 };
 
-/// To three digits.
+/// To three digits; the largest doubles, whose three digits are beyond all of them, as they are.
 Json rounded(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", x);
-  return Json::parse(text);
+  const double shorter = std::strtod(text, nullptr);
+  return std::isfinite(shorter) ? Json::parse(text) : Json(x);
 }
 
 Json questions_json(const std::vector<Question>& questions) {

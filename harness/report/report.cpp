@@ -144,6 +144,12 @@ Row row_from_json(const nlohmann::json& v) {
   r.crashed = member<std::size_t>(v, "crashed");
   r.stopped = member<std::size_t>(v, "stopped");
   r.broken = member<std::size_t>(v, "broken");
+  std::size_t rest = r.cases;
+  for (const std::size_t part : {r.wrong, r.abstained, r.crashed, r.stopped}) {
+    if (part > rest)
+      throw std::invalid_argument("no report: more cases are wrong, abstained, crashed or stopped than \"cases\" says");
+    rest -= part;
+  }
   r.faces = member<double>(v, "faces");
   if (const auto seconds = member<nlohmann::json>(v, "seconds"); !seconds.is_null())
     r.seconds = member<double>(v, "seconds");
@@ -279,14 +285,13 @@ std::vector<Summary> summaries(const std::vector<Row>& rows) {
     s.worst_seconds = std::max(s.worst_seconds, row.worst_seconds);
     s.peak_bytes = std::max(s.peak_bytes, row.peak_bytes);
     const std::size_t of_row = row.cases - row.crashed - row.stopped;
-    s.error += row.error * static_cast<double>(of_row);
     ended[place] += of_row;
+    if (of_row > 0)  // a mean as it grows: a sum of the largest errors is no number
+      s.error += (row.error - s.error) * (static_cast<double>(of_row) / static_cast<double>(ended[place]));
     s.worst_error = std::max(s.worst_error, row.worst_error);
   }
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  for (std::size_t k = 0; k < all.size(); ++k)
     if (!seconds[k].empty()) all[k].seconds = median(seconds[k]);
-    if (ended[k] > 0) all[k].error /= static_cast<double>(ended[k]);
-  }
   return all;
 }
 

@@ -4,8 +4,12 @@
 
 #include <sightline/kernel/number.h>
 
+#include <sys/stat.h>
+
+#include <fstream>
 #include <functional>
 #include <set>
+#include <thread>
 
 namespace program {
 
@@ -69,6 +73,43 @@ TEST_F(Certificates, a_vertex_moved_by_two_to_the_minus_sixty_is_rejected) {
           x = sightline::to_string(sightline::rational_from_string(x.get<std::string>()) +
                                    (up ? tiny : sightline::Rational(-tiny)));
         });
+}
+
+TEST_F(Certificates, of_any_kind_are_verified_from_a_pipe) {
+  const std::string cube = (corpus / "general" / "cube.off").string(), why = path("why.json").string(),
+                    named = path("pipe").string();
+  ASSERT_EQ(mkfifo(named.c_str(), 0600), 0);
+  for (const std::vector<std::string>& maker :
+       {std::vector<std::string>{"order", cube, "--eye", "3,4,5"}, {"boolean", "union", cube}}) {
+    std::vector<std::string> words = maker;
+    words.insert(words.end(), {"--certificate", why});
+    ASSERT_EQ(run(words).code, done);
+    const std::string bytes = read_file(why);
+    const auto expect_verified = [&](const std::string& from) {
+      const Outcome r = run({"verify", cube, from, "--json", "-"}, {.seconds = 20});
+      EXPECT_EQ(r.code, done) << r;
+      if (r.code == done) {
+        EXPECT_EQ(r.json()["counters"]["fragments"], 6) << r;
+      }
+    };
+
+    // 1. A name that can be opened once: both ends wait for each other.
+    std::thread writer([&] { std::ofstream(named) << bytes; });
+    expect_verified(named);
+    const int end = open(named.c_str(), O_RDWR | O_NONBLOCK);  // lets the writer go where nobody has read
+    writer.join();
+    close(end);
+
+    // 2. Standard input.
+    int ends[2];
+    ASSERT_EQ(pipe(ends), 0);
+    ASSERT_EQ(write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));  // it holds 64 KiB
+    close(ends[1]);
+    input_ = "/dev/fd/" + std::to_string(ends[0]);
+    expect_verified("-");
+    close(ends[0]);
+    input_ = "/dev/null";
+  }
 }
 
 TEST_F(Certificates, two_fragments_that_overlap_and_change_places_are_rejected) {

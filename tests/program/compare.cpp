@@ -83,6 +83,34 @@ TEST_F(Compare, too_many_fragments_leave_the_pairs_open) {
   EXPECT_TRUE(errors.at("exact")["pairs_wrong"].is_null()) << errors.at("exact");
 }
 
+TEST_F(Compare, refuses_options_that_its_question_would_pass_over) {
+  const std::string cube = (corpus / "general" / "cube.off").string(), svg = path("none.svg").string();
+  const std::vector<std::pair<std::vector<std::string>, std::string>> all{
+      {{"order", "--svg", svg}, "weak, render"},
+      {{"bsp", "--svg", svg}, "weak, render"},
+      {{"see", "--svg", svg}, "weak, render"},
+      {{"trace", "--svg", svg}, "weak, render"},
+      {{"pvs", "--svg", svg}, "weak, render"},
+      {{"order", "--rays", "3"}, "weak, pvs"},
+      {{"bsp", "--eye", "1,2,3"}, "order, see, render"},
+      {{"trace", "--kernels", "exact"}, "order, bsp, see, weak, render"},
+      {{"see", "--two-sided"}, "weak"},
+      {{"see", "--size", "16x16"}, "weak, render"},
+      {{"weak", "--from-face", "0", "--size", "16x16"}, "--svg"},
+      {{"weak", "--from-face", "0", "--alpha", "0.5"}, "render"},
+      {{"order", "--ray-file", cube}, "trace"},
+      {{"trace", "--ray-file", cube, "--random", "3"}, "--random"}};
+  for (const auto& [words, named] : all) {
+    std::vector<std::string> arguments{"compare", cube};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find(named), std::string::npos) << r;
+  }
+  EXPECT_FALSE(fs::exists(svg));
+}
+
 class Compare_visible : public Program {
  protected:
   /// Rows by kernel, or by size and bits.

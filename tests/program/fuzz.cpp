@@ -312,6 +312,20 @@ TEST_F(Fuzz, reduce_keeps_the_query_with_the_scene) {
   EXPECT_EQ(left["eye"], (Json{"0", "0", "0"})) << left;
 }
 
+TEST_F(Fuzz, reduce_refuses_a_scene_that_the_program_cannot_be_given) {
+  const std::string thirds = (corpus / "robust" / "thirds.qoff").string(),
+                    cube = (corpus / "general" / "cube.off").string();
+  for (const auto& [scene, out] : {std::pair(thirds, "small.off"), {cube, "small.stl"}, {cube, "small.map"}})
+    for (const char* code : {"0", "1"}) {
+      const Outcome r = run({"reduce", scene, "--out", path(out).string(), "--code", code, "--", "sh", "-c",
+                             "echo {} > " + path("ran").string() + "; exit " + code});
+      EXPECT_EQ(r.code, bad_input) << r;
+      EXPECT_TRUE(r.one_line_of_error()) << r;
+      EXPECT_EQ(r.err.find("fail"), std::string::npos) << r;
+    }
+  EXPECT_FALSE(fs::exists(path("ran")));
+}
+
 TEST_F(Fuzz, reduce_says_what_is_missing) {
   const std::string scene = path("a.off").string();
   ASSERT_EQ(run({"generate", "bars", "--size", "3", "--out", scene}).code, done);

@@ -201,7 +201,8 @@ TEST_F(Report_command, resumed_asks_again_about_a_scene_that_changed_and_refuses
 TEST_F(Report_command, says_what_to_do_about_bad_input) {
   const std::string cube = (corpus / "general" / "cube.off").string();
   const std::string torn = file("torn.json", "{\"command\": \"rep"),
-                    other = file("other.json", "{\"command\": \"see\"}");
+                    other = file("other.json", "{\"command\": \"see\"}"),
+                    both_sides = file("both.json", R"({"query": "see", "eye": [3, 4, 5], "two_sided": true})");
   const std::string json = path("x.json").string();
   const std::string program = "sh " + file("p.sh", "exit 0\n") + " {scene} {query} {answer}";
   const std::vector<std::pair<std::vector<std::string>, int>> all{
@@ -216,8 +217,10 @@ TEST_F(Report_command, says_what_to_do_about_bad_input) {
       {{"report", "--json", json, "--program", program}, usage},
       {{"report", "--json", json, "--program", "pvs=" + program}, usage},
       {{"report", "--json", json, "--ask", other}, usage},
-      {{"report", "--json", json, "--ask", other, "--questions", "see,order", cube}, usage},
-      {{"report", "--json", json, "--ask", other, "--questions", "see", cube}, usage},
+      {{"report", cube, "--json", json, "--ask", both_sides, "--questions", "see,order"}, usage},
+      {{"report", cube, "--json", json, "--ask", both_sides, "--questions", "see"}, usage},
+      {{"report", cube, "--json", json, "--ask", both_sides, "--questions", "pvs"}, usage},
+      {{"report", cube, "--json", json, "--ask", other, "--questions", "see"}, bad_input},
       {{"report", "--json", json, "--program", "see=sh x"}, usage},
       {{"report", "--json", json, "--questions", "order", "--program", "see=" + program}, usage},
       {words({"--json", json, "--program", "see=/none/there {scene} {query} {answer}"}), usage},
@@ -291,12 +294,189 @@ TEST_F(Report_command, asks_programs_for_set_operations) {
       continue;
     }
     ASSERT_EQ(asked.code, done) << example["again"];
-    for (const Json& s : asked.json()["result"]["summaries"])
+    const Json told = asked.json();
+    for (const Json& s : told["result"]["summaries"])
       if (s["kernel"] == "exact" || s["kernel"] == example["kernel"]) {
         EXPECT_EQ(s["wrong"], s["kernel"] == "exact" ? 0 : 1) << s;
       }
   }
   EXPECT_EQ(shown.count("program") + shown.count("float"), 2u) << result["examples"];
+}
+
+/// Of one ray, along a square that it meets at its edge: who is asked it is wrong about all rays or about none.
+TEST_F(Report_command, asks_methods_the_rays_of_a_file) {
+  const std::string square = file("square.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"),
+                    ray = file("ray.json",
+                               R"({"query": "trace", "rays": [{"origin": [-1, 0.5, 0], "direction": [1, 0, 0]}]})");
+  const Outcome r = run({"report", square, "--ask", ray, "--questions", "trace", "--quick", "--keep",
+                         path("kept").string(), "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json result = r.json()["result"];
+  std::size_t exact = 0;
+  for (const Json& row : result["rows"]) {
+    exact += row["kernel"] == "exact";
+    EXPECT_EQ(row["error"], row["kernel"] == "exact" ? 0 : 1) << row;
+  }
+  EXPECT_EQ(exact, 2u);
+  for (const Json& example : result["examples"]) {
+    const Outcome asked = again(example["again"], "");
+    ASSERT_EQ(asked.code, done) << example["again"];
+    const Json told = asked.json();
+    for (const Json& row : told["result"]["rows"])
+      if (row["method"] == example["method"]) {
+        EXPECT_EQ(row["error"], 1) << example["again"];
+      }
+  }
+}
+
+/// A speck that is seen from behind, if both sides count; no random ray meets it.
+TEST_F(Report_command, asks_methods_about_both_sides_where_a_file_does) {
+  const std::string speck = file("speck.off", "OFF\n3 1 0\n0 0 0\n0 1e-6 0\n1e-6 0 0\n3 0 1 2\n");
+  for (const bool both : {true, false}) {
+    const std::string lamp =
+        file("lamp.json", R"({"query": "weak", "source": [[-1,-1,2],[-1,1,2],[1,1,2],[1,-1,2]], "two_sided": )" +
+                              std::string(both ? "true}" : "false}"));
+    const Outcome r = run({"report", speck, "--ask", lamp, "--questions", "weak", "--quick", "--reduce", "1", "--json",
+                           "-", "--keep", path("kept").string()});
+    ASSERT_EQ(r.code, done) << r;
+    const Json result = r.json()["result"];
+    EXPECT_EQ(result["rows"].size(), 6u) << result;
+    for (const Json& row : result["rows"])
+      EXPECT_EQ(row["wrong"], both && row["method"].get<std::string>().starts_with("sample") ? 1 : 0) << both << row;
+    if (!both) continue;
+    ASSERT_FALSE(result["examples"].empty());
+    const Outcome asked = again(result["examples"][0]["again"], " --json -");
+    ASSERT_EQ(asked.code, done) << result["examples"][0]["again"];
+    const Json told = asked.json();
+    for (const Json& row : told["result"]["rows"])
+      if (row["method"] == "sample") {
+        EXPECT_EQ(row["errors"]["wrongly_hidden"], 1) << row;
+      }
+  }
+}
+
+TEST_F(Report_command, says_of_orders_too_large_to_be_compared_that_they_are_not_asked) {
+  if (sanitized) GTEST_SKIP() << "three thousand faces in six kernels; other orders are sanitized";
+  constexpr int faces = 3001;
+  std::string scene = "OFF " + std::to_string(3 * faces) + ' ' + std::to_string(faces) + " 0\n";
+  for (int k = 0; k < 3 * faces; ++k)
+    scene += std::to_string(k / 3 * 3 + (k % 3 == 1)) + (k % 3 == 2 ? " 1 0\n" : " 0 0\n");
+  for (int k = 0; k < 3 * faces; k += 3)
+    scene += "3 " + std::to_string(k) + ' ' + std::to_string(k + 1) + ' ' + std::to_string(k + 2) + '\n';
+  const Outcome r = run({"report", file("many.off", scene), "--questions", "order", "--quick", "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json result = r.json()["result"];
+  EXPECT_TRUE(result["rows"].empty()) << result["rows"];
+  EXPECT_EQ(result["not_asked"].size(), 6u) << result["not_asked"];
+  EXPECT_EQ(result["not_asked"]["many.off: an order of more than 3000 fragments by exact is compared in no pair"], 1)
+      << result["not_asked"];
+}
+
+/// Beyond those of --memory; this test's own limit is all that is left.
+TEST_F(Report_command, lets_programs_name_more_addresses_than_they_use) {
+  const std::string wants = file("wants.sh",
+                                 "most=$(ulimit -v); [ $most = unlimited ] || [ $most -ge 4194304 ] || exit 9\n"
+                                 ": > \"$3\"\n");
+  const Outcome r =
+      run({"report", (corpus / "general" / "cube.off").string(), "--questions", "see", "--quick", "--memory", "64",
+           "--json", "-", "--program", "see=sh " + wants + " {scene} {query} {answer}"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json said = r.json();
+  bool is_there = false;
+  for (const Json& s : said["result"]["summaries"]) {
+    if (s["kernel"] != "program") continue;
+    is_there = true;
+    EXPECT_EQ(s["crashed"], 0) << s;
+  }
+  EXPECT_TRUE(is_there) << said;
+}
+
+TEST_F(Report_command, of_an_answer_of_any_area_is_written_and_merged) {
+  std::string cubes = "OFF 16 12 0\n";
+  for (const char* x : {"0", "5"})
+    for (const char* corner : {"0 0 0", "2 0 0", "2 2 0", "0 2 0", "0 0 2", "2 0 2", "2 2 2", "0 2 2"})
+      cubes += std::to_string(std::atoi(x) + std::atoi(corner)) + (corner + 1) + '\n';
+  const int sides[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+  for (const int first : {0, 8})
+    for (const auto& side : sides) {
+      cubes += "4";
+      for (const int corner : side) cubes += ' ' + std::to_string(first + corner);
+      cubes += '\n';
+    }
+  const std::string huge = file("huge.off", "OFF 3 2 0\n0 0 9\n1e300 0 9\n0 1e300 9\n3 0 1 2\n3 0 2 1\n"),
+                    ask = file("ask.json", R"({"query": "boolean", "operation": "difference", "first": 6})"),
+                    json = path("r.json").string();
+  const Outcome r =
+      run({"report", file("cubes.off", cubes), "--ask", ask, "--questions", "boolean", "--quick", "--cases", "3",
+           "--reduce", "1", "--json", json, "--html", path("r.html").string(), "--svg", path("r.svg").string(),
+           "--program", "boolean=sh " + file("copy.sh", "cp $1 $2\n") + ' ' + huge + " {answer} {scene} {query}"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json report = Json::parse(read_file(json));
+  bool is_there = false;
+  for (const Json& s : report["result"]["summaries"]) {
+    if (s["kernel"] != "program") continue;
+    is_there = true;
+    EXPECT_EQ(s["wrong"], 3) << s;
+    EXPECT_GT(s["error"].get<double>(), 1e200) << s;
+  }
+  EXPECT_TRUE(is_there) << report["result"]["summaries"];
+  const Outcome merged = run({"report", "--merge", json, "--html", path("merged.html").string()});
+  EXPECT_EQ(merged.code, done) << merged;
+}
+
+TEST_F(Report_command, merged_says_as_one_run_does_that_an_exact_method_erred) {
+  const std::string json = path("r.json").string();
+  ASSERT_EQ(
+      run({"report", (corpus / "general" / "cube.off").string(), "--questions", "trace", "--quick", "--json", json})
+          .code,
+      done);
+  EXPECT_EQ(run({"report", "--merge", json, "--json", "-"}).code, done);
+  Json report = Json::parse(read_file(json));
+  report["result"]["rows"][0]["wrong"] = report["result"]["rows"][0]["broken"] = 1;
+  const std::string changed = file("changed.json", report.dump());
+  EXPECT_EQ(run({"report", "--merge", changed, "--json", "-"}).code, disagreement);
+}
+
+/// Whether a process is there and not merely waited for.
+bool is_alive(pid_t process) {
+  const std::string stat = read_file("/proc/" + std::to_string(process) + "/stat");
+  const std::size_t name_end = stat.rfind(')');
+  return name_end != std::string::npos && stat[name_end + 2] != 'Z';
+}
+
+TEST_F(Report_command, that_is_ended_leaves_no_process_behind) {
+  const std::string tells =
+      file("tells.sh", "echo $PPID > " + path("told.part").string() + "; mv " + path("told.part").string() + ' ' +
+                           path("told").string() + "; exec sleep 100\n");
+  std::vector<std::string> words{executable,
+                                 "report",
+                                 (corpus / "general" / "cube.off").string(),
+                                 "--questions",
+                                 "see",
+                                 "--quick",
+                                 "--limit",
+                                 "100",
+                                 "--json",
+                                 path("r.json").string(),
+                                 "--quiet",
+                                 "--program",
+                                 "see=sh " + tells + " {scene} {query} {answer}"};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_t report = 0;
+  ASSERT_EQ(posix_spawn(&report, executable.c_str(), nullptr, nullptr, argv.data(), environ), 0);
+  const auto waits_for = [](auto holds) {
+    const int most = sanitized ? 6000 : 1500;
+    for (int k = 0; k < most && !holds(); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return holds();
+  };
+  const bool asked = waits_for([&] { return fs::exists(path("told")); });
+  kill(report, SIGTERM);
+  waitpid(report, nullptr, 0);
+  ASSERT_TRUE(asked);
+  const pid_t child = std::stoi(read_file(path("told")));
+  EXPECT_TRUE(waits_for([&] { return !is_alive(child); }));
 }
 
 /// Each example marks the faces that are wrong, or says why it marks none.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -119,6 +120,11 @@ TEST(Report, of_somebody_else_names_no_files_elsewhere_and_no_numbers_that_do_no
   for (const Json& count : {Json(-1), Json(1.5), Json("x")})
     refused([&](Json& r) { r["result"]["not_asked"]["why"] = count; });
   refused([](Json& r) { r["result"]["not_asked"] = {1}; });
+  for (const char* kind : {"wrong", "abstained", "crashed", "stopped"})
+    refused([&](Json& r) { r["result"]["rows"][0][kind] = 5; });  // of 4
+  refused([](Json& r) {
+    for (const char* kind : {"wrong", "crashed"}) r["result"]["rows"][0][kind] = 3;
+  });
   EXPECT_NO_THROW(report_from_json(nlohmann::json::parse(written.dump())));
 }
 
@@ -212,6 +218,17 @@ TEST(Report_page, holds_all_rows_and_nothing_that_ends_its_data) {
   publish(half(0), half(1), "/dev/null");
 }
 
+TEST(Report_page, of_the_largest_errors_is_one) {
+  Report report = whole();
+  constexpr double most = std::numeric_limits<double>::max();
+  for (Row& r : report.rows) r.error = r.worst_error = most;
+  for (const Summary& s : summaries(report.rows)) EXPECT_EQ(s.error, most);
+  const Json data = data_of(report_page(report));
+  ASSERT_FALSE(data.is_discarded());
+  EXPECT_EQ(data["rows"][0][14], most);
+  EXPECT_EQ(data["summaries"][1]["error"], most);
+}
+
 TEST(Report_page, opens_scenes_where_something_opens_them_as_many_as_there_is_room_for) {
   Report report = whole();
   report.examples.assign(6, report.examples[0]);
@@ -234,7 +251,8 @@ TEST(Report_page, opens_scenes_where_something_opens_them_as_many_as_there_is_ro
   }
   const std::string without = report_page(report);
   EXPECT_EQ(without.find("id=\"views\""), std::string::npos);
-  for (const Json& e : json_in(without, "data")["examples"]) EXPECT_TRUE(e["view"].is_null());
+  const Json data = json_in(without, "data");
+  for (const Json& e : data["examples"]) EXPECT_TRUE(e["view"].is_null());
 
   // It goes through the document, and documents of before are read.
   nlohmann::json document = to_json(report);
