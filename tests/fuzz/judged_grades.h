@@ -65,8 +65,27 @@ inline void try_grade_of_faces(Random& random) {
           "a mark says whether anything is wrong, or left open");
 }
 
+/// A face of one piece as a part that is all of it, from any corner on and either way round; returns it smaller by
+/// 2^-20, as it is judged, or nothing where corners are straight.
+inline std::optional<Flat_face> drawn_as_part(const Flat_face& face, judge::Drawn_face& drawn, Random& random) {
+  const std::size_t count = face.corners.size();
+  Exact_point middle;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Exact_point &p = face.corners[i], &q = face.corners[(i + 1) % count], &r = face.corners[(i + 2) % count];
+    if (cross(minus(q, p), minus(r, q)) == Exact_point{}) return std::nullopt;
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += p[k] / static_cast<long>(count);
+  }
+  Points smaller = drawn.part = face.corners;
+  std::rotate(drawn.part.begin(), drawn.part.begin() + static_cast<std::ptrdiff_t>(random.below(count)),
+              drawn.part.end());
+  if (random.chance(1, 2)) std::reverse(drawn.part.begin(), drawn.part.end());
+  for (Exact_point& p : smaller)
+    for (std::size_t k = 0; k < 3; ++k) p[k] += (middle[k] - p[k]) / (1 << 20);
+  return Flat_face(std::move(smaller));
+}
+
 inline void try_grade_of_an_order(Random& random) {
-  const std::optional<Asked> asked = any_asked(Question::order, random);
+  std::optional<Asked> asked = any_asked(Question::order, random);
   if (!asked) return;
   const Query& query = asked->made.query;
   const Any_order order(*asked, random);
@@ -77,6 +96,13 @@ inline void try_grade_of_an_order(Random& random) {
     else if (asked->counts_from(query.eye, f, query.two_sided)) nearer.insert(f);
   }
   answer.abstained.assign(open.begin(), open.end());
+  if (random.chance(1, 2))  // some in parts, which count as a little smaller
+    for (judge::Drawn_face& drawn : answer.order) {
+      const auto owner = std::find(asked->owners.begin(), asked->owners.end(), drawn.face);
+      if (random.chance(1, 3) || std::count(owner, asked->owners.end(), drawn.face) != 1) continue;
+      Flat_face& piece = asked->pieces[static_cast<std::size_t>(owner - asked->owners.begin())];
+      if (std::optional<Flat_face> smaller = drawn_as_part(piece, drawn, random)) piece = std::move(*smaller);
+    }
   const Grade grade = judge::grade(asked->truth, answer);
   const std::vector<std::array<Face_id, 2>> pairs = wrong_pairs_by_force(*asked, order.faces);
   require(grade.wrong_pairs == pairs, "pairs are in the wrong order iff some direction shows them so");
