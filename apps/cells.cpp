@@ -177,9 +177,10 @@ Exit run(const Cells_arguments& arguments) {
   const std::vector<Seal> given = seals_of(arguments);
   const Division division = arguments.division.division(common, soup);
   const Stopwatch watch;
+  const Report in_time = common.within_budget();
   const Level_cells level = cells_of(common, soup, division);
   std::vector<std::uint32_t> regions;  // by cell
-  if (division.kind == Division::Kind::regions) regions = division.groups(level);
+  if (division.kind == Division::Kind::regions) regions = division.groups(level, in_time);
   std::uint32_t region_count = 0;
   for (const std::uint32_t region : regions)
     if (region != no_cell) region_count = std::max(region_count, region + 1);

@@ -78,8 +78,11 @@ Weak_visibility seen_from_solids(const Model& model, const std::vector<Polygon_s
   const std::function<bool()> out_of_time = end_of_budget(asking);
   const Occluders& occluders = model.inside()->occluders();
   std::list<Weak_volume> volumes;
+  const auto dividing = [&](std::size_t, std::size_t) {
+    if (asking.progress) asking.progress(0, 1);  // which may end the question
+  };
   for (const Polygon_soup& solid : solids) {
-    const std::vector<std::vector<Exact_point>>& surface = volumes.emplace_back(solid).surface();
+    const std::vector<std::vector<Exact_point>>& surface = volumes.emplace_back(solid, dividing).surface();
     sources.insert(sources.end(), surface.begin(), surface.end());
   }
   std::atomic<std::size_t> all = 1;

@@ -68,7 +68,7 @@ class Cell_pvs_search::Maker {
           if (!is_done_[own[begin + k]]) flood(own[begin + k]);
           if (options_.progress) options_.progress(++done, own.size());
         });
-        for (std::size_t k = begin; k < end; ++k) is_done_[own[k]] = true;
+        for (std::size_t k = begin; k < end; ++k) is_done_[own[k]] = columns_[own[k]].in_time;
       }
     });
 
@@ -123,6 +123,7 @@ class Cell_pvs_search::Maker {
   struct Column {
     std::vector<Cell_id> visible, undecided;
     Cell_pvs_counters counters;
+    bool in_time = true;  // or else it is asked again
   };
   enum class Known : char { nothing, is_hidden, is_undecided, is_visible, is_told_hidden };
   struct Flood {
@@ -140,6 +141,8 @@ class Cell_pvs_search::Maker {
     }
   };
 
+  bool out_of_time() const { return options_.search.out_of_time && options_.search.out_of_time(); }
+
   bool is_asked(Cell_id cell) const { return ways_.is_asked()[cell] != 0; }
 
   /// What floods of earlier rounds say of a pair.
@@ -153,7 +156,8 @@ class Cell_pvs_search::Maker {
     return open ? Known::nothing : Known::is_told_hidden;
   }
 
-  /// All cells that see a cell, outwards from there.
+  /// All cells that see a cell, outwards from there. Once out of time, what is neither visible nor told to be hidden is
+  /// undecided.
   void flood(Cell_id cell) {
     Column& column = columns_[cell] = {};  // where it was given up, it begins anew
     Cell_pvs_counters& counters = column.counters;
@@ -172,10 +176,11 @@ class Cell_pvs_search::Maker {
 
     // 2. Along lines, and then from cell to cell: who sees it sees it through a neighbour that does.
     see_along_lines(flood);
-    for (std::size_t next = 0; next < flood.waiting.size(); ++next)
+    for (std::size_t next = 0; next < flood.waiting.size() && column.in_time; ++next)
       for (const std::size_t w : ways_.into(flood.waiting[next])) {
         Known& of_cell = flood.known[ways_[w].from];
         if (of_cell == Known::is_visible || of_cell == Known::is_told_hidden) continue;
+        if (column.in_time = !out_of_time(); !column.in_time) break;
         const Weak_status found = look_through(w, flood);
         if (found == Weak_status::hidden) of_cell = std::max(of_cell, Known::is_hidden);
         if (found != Weak_status::undecided || of_cell == Known::is_undecided) continue;
@@ -187,9 +192,11 @@ class Cell_pvs_search::Maker {
     for (Cell_id other = cell + 1; other < count_; ++other) {
       if (!is_asked(other)) continue;
       ++counters.pairs;
-      if (flood.known[other] == Known::is_visible) column.visible.push_back(other);
-      if (flood.known[other] == Known::is_undecided) column.undecided.push_back(other);
-      counters.unreached += flood.known[other] == Known::nothing;
+      Known& known = flood.known[other];
+      if (!column.in_time && known != Known::is_visible && known != Known::is_told_hidden) known = Known::is_undecided;
+      if (known == Known::is_visible) column.visible.push_back(other);
+      if (known == Known::is_undecided) column.undecided.push_back(other);
+      counters.unreached += known == Known::nothing;
     }
     counters.visible = column.visible.size();
     counters.undecided = column.undecided.size();
@@ -198,7 +205,7 @@ class Cell_pvs_search::Maker {
   void see_along_lines(Flood& flood) const {
     std::mt19937_64 dice(options_.search.seed * 0x9e3779b97f4a7c15u + flood.cell);
     const std::vector<std::size_t>& first = ways_.into(flood.cell);
-    for (std::size_t turn = 0; turn < most_turns && !first.empty(); ++turn) {
+    for (std::size_t turn = 0; turn < most_turns && !first.empty() && !out_of_time(); ++turn) {
       const std::size_t before = flood.counters.by_lines;
       for (std::size_t k = 0; k < lines_at_once; ++k) {
         const std::size_t back = first[dice() % first.size()];
@@ -283,7 +290,7 @@ class Cell_pvs_search::Maker {
   /// Whether there is a free line between two portals, in front of both. What is undecided is asked the other way
   /// round, and then of events.
   Weak_answer decide(std::size_t from, std::size_t to, Cell_pvs_counters& counters) const {
-    if (options_.search.out_of_time && options_.search.out_of_time()) return nothing_known();
+    if (out_of_time()) return nothing_known();
     Weak_answer answer = search(from, to, counters);
     if (answer.status == Weak_status::undecided) {
       answer = search(to, from, counters);

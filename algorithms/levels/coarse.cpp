@@ -24,11 +24,13 @@ class Region_merger {
   }
 
   /// Puts together what can be until `count` regions that are not solid are no more than `most`.
-  void merge(std::size_t count, std::size_t most) {
+  void merge(std::size_t count, std::size_t most, const std::function<void(std::size_t, std::size_t)>& progress) {
+    const std::size_t begun = count;
     for (bool goes_on = true; goes_on;) {
       goes_on = false;
       for (const std::uint32_t w : open_) {
         if (count <= most) return;
+        if (progress) progress(begun - count, begun - most);
         const Cell_id a = region_of(level_.walls()[w].front), b = region_of(level_.walls()[w].behind);
         const std::uint32_t plane = sides_[w].first;
         if (a == b || !fits(a, b, plane) || !fits(b, a, plane) || is_covered(a, b)) continue;
@@ -119,10 +121,11 @@ class Region_merger {
 
 }  // namespace levels_detail
 
-std::vector<std::uint32_t> convex_regions(const Level_cells& level, std::size_t most) {
+std::vector<std::uint32_t> convex_regions(const Level_cells& level, std::size_t most,
+                                          const std::function<void(std::size_t, std::size_t)>& progress) {
   const std::vector<Level_cell>& cells = level.cells();
   levels_detail::Region_merger merger(level);
-  merger.merge(cells.size() - level.counters().solid, most);
+  merger.merge(cells.size() - level.counters().solid, most, progress);
   std::vector<std::uint32_t> numbers(cells.size(), no_cell);
   std::uint32_t next = 0;
   for (Cell_id c = 0; c < cells.size(); ++c) {

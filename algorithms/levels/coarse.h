@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sightline {
@@ -15,7 +16,9 @@ namespace sightline {
 /// over; those with the largest common polygons come first. Post: with walls between their cells, regions are convex
 /// polyhedra, open and disjoint. Degenerate: at no time more regions than cells; a polygon that a face touches with
 /// its boundary alone is open. Cost: rounds, until one changes nothing, of O(walls) tests of the planes of one region
-/// with the corners of another. Exact: yes. Proof: P-88d
-std::vector<std::uint32_t> convex_regions(const Level_cells& level, std::size_t most);
+/// with the corners of another. `progress` is told how many cells were put to others, of those that may be, all the
+/// time; what it throws ends it. Exact: yes. Proof: P-88d
+std::vector<std::uint32_t> convex_regions(const Level_cells& level, std::size_t most,
+                                          const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
 }  // namespace sightline

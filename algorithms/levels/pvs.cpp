@@ -87,7 +87,9 @@ class Pvs_maker {
     }
   }
 
-  /// All cells that see a face, outwards from where it is.
+  bool out_of_time() const { return options_.search.out_of_time && options_.search.out_of_time(); }
+
+  /// All cells that see a face, outwards from where it is. Once out of time, what is not visible is undecided.
   Pvs_counters flood(const Target& target, std::vector<Cell_id>& visible, std::vector<Cell_id>& undecided) const {
     Pvs_counters counters;
     enum class Known : char { nothing, is_hidden, is_undecided, is_visible };
@@ -96,11 +98,13 @@ class Pvs_maker {
     std::vector<Cell_id> waiting = target.starts;
     for (const Cell_id cell : waiting) known[cell] = Known::is_visible;
     counters.within = waiting.size();
-    for (std::size_t next = 0; next < waiting.size(); ++next) {
+    bool is_over = false;
+    for (std::size_t next = 0; next < waiting.size() && !is_over; ++next) {
       for (const std::size_t w : ways_.into(waiting[next])) {
         const Way& way = ways_[w];
         Known& of_cell = known[way.from];
         if (of_cell == Known::is_visible) continue;
+        if (is_over = out_of_time(); is_over) break;
         const Weak_status found = look_through(way, target, sightlines, counters);
         if (found == Weak_status::hidden) {
           of_cell = std::max(of_cell, Known::is_hidden);
@@ -111,6 +115,7 @@ class Pvs_maker {
       }
     }
     for (Cell_id c = 0; c < known.size(); ++c) {
+      if (is_over && ways_.is_asked()[c] != 0 && known[c] != Known::is_visible) known[c] = Known::is_undecided;
       if (known[c] == Known::is_visible) visible.push_back(c);
       if (known[c] == Known::is_undecided) undecided.push_back(c);
       counters.unreached += known[c] == Known::nothing && ways_.is_asked()[c] != 0;
@@ -129,7 +134,6 @@ class Pvs_maker {
       }
 
     // 2. A search.
-    if (options_.search.out_of_time && options_.search.out_of_time()) return Weak_status::undecided;
     ++counters.searched;
     Weak_status status = Weak_status::hidden;
     for (const std::uint32_t piece : target.pieces) {

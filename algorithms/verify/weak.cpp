@@ -259,9 +259,6 @@ void Trees::check_for(std::size_t fragment, const std::vector<Node>& proof) {
 
 std::shared_ptr<Cell> Trees::cell_of(std::shared_ptr<const Corners> source, std::shared_ptr<const Corners> target,
                                      std::size_t cuts) const {
-  if (source->size() > most_products / std::max<std::size_t>(1, target->size()))
-    reject(name("fragment", fragment_) + " and " + name("source", source_) + " have too many corners to be checked",
-           {fragment_});
   return std::make_shared<Cell>(Cell{std::move(source), std::move(target), cuts, {}});
 }
 
@@ -301,6 +298,9 @@ void Trees::check_away(const Cell& cell) const {
 
 void Trees::check_blocked(Cell& cell, std::size_t f) {
   if (f >= fragments_.size()) refuse("is blocked by fragment " + std::to_string(f) + ", which there is not");
+  if (cell.source->size() > most_products / cell.target->size())
+    reject(name("fragment", fragment_) + " and " + name("source", source_) + " have too many corners to be checked",
+           {fragment_});
   const Outline& blocker = fragments_[f];
   const int front = position(blocker.plane, *cell.source);
   if (front * position(blocker.plane, *cell.target) >= 0)
@@ -450,11 +450,13 @@ std::string check_faces(const Weak_certificate& certificate, const Faces& visibl
 
 /// The first sources by their corners and the side that they look to.
 std::string described(const std::vector<Polygon>& sources) {
-  constexpr std::size_t most = 3;
+  constexpr std::size_t most = 3, most_corners = 8;
   std::string text;
   for (std::size_t k = 0; k < std::min(most, sources.size()); ++k) {
     text += (k == 0 ? "" : ", ") + name("source", k);
-    for (const Exact_point& p : sources[k]) text += ' ' + exact_name(p);
+    for (std::size_t i = 0; i < std::min(most_corners, sources[k].size()); ++i) text += ' ' + exact_name(sources[k][i]);
+    if (sources[k].size() > most_corners)
+      text += " and " + std::to_string(sources[k].size() - most_corners) + " more corners";
     const Integer_vector side = newell_normal(sources[k]);
     text += " looking to " + exact_name(Exact_point{Rational(side[0]), Rational(side[1]), Rational(side[2])});
   }

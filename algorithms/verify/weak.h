@@ -76,9 +76,9 @@ struct Weak_certificate : Covering {
 /// Degenerate: contact of measure zero is not visibility; a source and a fragment in one plane do not see each other.
 /// Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line; where accepted, the counts
 /// of faces. Cost: for each sightline the fragments near it, which a tree of boxes finds; linear in the nodes of trees,
-/// each in the pairs of corners of what is left of source and fragment. Cells of more than 10^7 pairs or below more
-/// than 1000 cuts are rejected. Exact: yes; doubles are asked only for what is surely not near a sightline. Proof:
-/// P-21, P-22, P-72
+/// each in the pairs of corners of what is left of source and fragment. Blocked and empty cells of more than 10^7
+/// pairs, and cells below more than 1000 cuts, are rejected. Exact: yes; doubles are asked only for what is surely not
+/// near a sightline. Proof: P-21, P-22, P-72
 Verdict verify_weak(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options = {});
 
 }  // namespace sightline

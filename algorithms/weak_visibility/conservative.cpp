@@ -17,9 +17,13 @@ std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders& occlu
   const auto leaf = [&](const Near_polygon& from) -> std::optional<Weak_step> {
     const int towards = side(source.plane, target), back = side(plane, from);
     if (towards <= 0 || (back < 0 && !two_sided)) return Weak_step{Kind::away, 0, {}, {}};
-    const std::vector<Pluecker> pairs = pairs_of(from, target);
-    for (const std::uint32_t near : occluders.near_shaft(from, target))
+    if (from.size() * target.size() > most_pairs) return {};
+    std::vector<Pluecker> pairs;  // once they are asked for
+    for (const std::uint32_t near : occluders.near_shaft(from, target)) {
+      if (near == piece) continue;
+      if (pairs.empty()) pairs = pairs_of(from, target);
       if (occluders.blocks_all(near, from, target, pairs)) return Weak_step{Kind::blocked, near, {}, {}};
+    }
     return {};
   };
   const bool cut_target = is_across(source.plane, target);

@@ -135,6 +135,10 @@ inline double dot(const Pluecker& a, const Pluecker& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
 }
 
+/// Of polygons that have more pairs of corners no proof is looked for: `verify` refuses to check it, and what is kept
+/// of each pair adds up.
+inline constexpr std::size_t most_pairs = 10'000'000;
+
 /// Of all pairs of corners, those with one corner of the source next to each other.
 std::vector<Pluecker> pairs_of(const Near_polygon& source, const Near_polygon& target);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace sightline {
@@ -22,29 +23,38 @@ std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Nea
   for (const Near_polygon* polygon : {&s, &t})
     for (const Near_point& p : *polygon) reach = std::max(reach, size(p.near));
   const double little = 1e-9 * reach;
-  const auto add = [&](Triple n, const Triple& through) {
+  // `first`: corners that most likely show that it is none.
+  const auto add = [&](Triple n, const Triple& through, std::initializer_list<const Near_point*> first) {
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(length > 1e-150 && std::isfinite(length))) return;
     for (double& x : n) x /= length;
     double least = std::numeric_limits<double>::infinity(), most = -least;
+    const auto in_front = [&] { return least > -little / 2; };
+    const auto behind = [&] { return most < little / 2; };
+    const auto goes_on = [&](const Near_point& p) {
+      const double height =
+          n[0] * (p.near[0] - through[0]) + n[1] * (p.near[1] - through[1]) + n[2] * (p.near[2] - through[2]);
+      least = std::min(least, height);
+      most = std::max(most, height);
+      return in_front() || behind();  // or else no more corner will change that
+    };
+    for (const Near_point* p : first)
+      if (!goes_on(*p)) return;
     for (const Near_polygon* polygon : {&s, &t})
-      for (const Near_point& p : *polygon) {
-        const double height =
-            n[0] * (p.near[0] - through[0]) + n[1] * (p.near[1] - through[1]) + n[2] * (p.near[2] - through[2]);
-        least = std::min(least, height);
-        most = std::max(most, height);
-      }
+      if (!std::all_of(polygon->begin(), polygon->end(), goes_on)) return;
     const double offset = n[0] * through[0] + n[1] * through[1] + n[2] * through[2];
     if (!std::isfinite(offset)) return;
-    if (least > -little / 2) planes.push_back({n[0], n[1], n[2], little - offset});
-    else if (most < little / 2) planes.push_back({-n[0], -n[1], -n[2], little + offset});
+    if (in_front()) planes.push_back({n[0], n[1], n[2], little - offset});
+    else planes.push_back({-n[0], -n[1], -n[2], little + offset});
   };
   for (int turn = 0; turn < 2; ++turn) {
     const Near_polygon &own = turn == 0 ? s : t, &other = turn == 0 ? t : s;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      const Triple &a = own[i].near, &b = own[(i + 1) % own.size()].near;
-      for (const Near_point& c : other) {
-        add(cross(minus(b, a), minus(c.near, a)), a);
+    const std::size_t m = own.size(), n = other.size();
+    for (std::size_t i = 0; i < m; ++i) {
+      const Triple &a = own[i].near, &b = own[(i + 1) % m].near;
+      for (std::size_t j = 0; j < n; ++j) {
+        const Triple& c = other[j].near;
+        add(cross(minus(b, a), minus(c, a)), a, {&own[(i + 2) % m], &other[(j + 1) % n], &other[(j + n - 1) % n]});
       }
     }
   }
@@ -53,9 +63,11 @@ std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Nea
     n[k] = 1;
     const auto less = [&](const Near_point& a, const Near_point& b) { return a.near[k] < b.near[k]; };
     add(n,
-        std::min(*std::min_element(s.begin(), s.end(), less), *std::min_element(t.begin(), t.end(), less), less).near);
+        std::min(*std::min_element(s.begin(), s.end(), less), *std::min_element(t.begin(), t.end(), less), less).near,
+        {});
     add(n,
-        std::max(*std::max_element(s.begin(), s.end(), less), *std::max_element(t.begin(), t.end(), less), less).near);
+        std::max(*std::max_element(s.begin(), s.end(), less), *std::max_element(t.begin(), t.end(), less), less).near,
+        {});
   }
   // Most of them are given by several corners.
   std::sort(planes.begin(), planes.end());
@@ -380,6 +392,10 @@ bool Occluders::lets_pass(std::uint32_t piece, const Near_polygon& source, const
   int front = 0;  // if the plane is between them at all
   for (std::size_t i = 0; i < source.size() && front == 0; ++i) front = likely_side(planes_[piece], source[i].near);
   if (front == 0) return false;
+  // What its edges let pass is asked of all pairs of corners, in vain where the plane is the target's own, say.
+  if (std::none_of(target.begin(), target.end(),
+                   [&](const Near_point& q) { return likely_side(planes_[piece], q.near) == -front; }))
+    return false;
   const auto reach = [](const Near_polygon& of) {
     double most = 0;
     for (const Near_point& p : of) most = std::max(most, sightline::size(p.near));

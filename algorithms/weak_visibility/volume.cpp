@@ -1,17 +1,14 @@
 #include <sightline/algorithms/weak_visibility/volume.h>
 
-#include <sightline/algorithms/bsp/build.h>
-#include <sightline/algorithms/bsp/query.h>
 #include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
-#include <sightline/kernel/sign.h>
-#include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -20,16 +17,31 @@ namespace {
 
 using Polygon = std::vector<Exact_point>;
 
-Bsp_options one_thread() {
-  Bsp_options options;
-  options.threads = 1;
-  return options;
+/// Nearest doubles of the least and the largest coordinates: rounding keeps their order, so that what is apart in them
+/// is apart.
+using Near_ranges = std::array<std::array<double, 2>, 3>;
+
+bool are_apart(const Near_ranges& a, const Near_ranges& b, std::size_t k) {
+  return a[k][1] < b[k][0] || b[k][1] < a[k][0];
+}
+bool are_apart(const Near_ranges& a, const Near_ranges& b) {
+  return are_apart(a, b, 0) || are_apart(a, b, 1) || are_apart(a, b, 2);
+}
+Near_ranges ranges_of(const Polygon& points) {
+  const std::array<Exact_point, 2> box = exact_box(points);
+  Near_ranges ranges;
+  for (std::size_t k = 0; k < 3; ++k) ranges[k] = {nearest_double(box[0][k]), nearest_double(box[1][k])};
+  return ranges;
 }
 
-bool apart(const std::array<Exact_point, 2>& a, const std::array<Exact_point, 2>& b) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) return true;
-  return false;
+Exact_point normal_of(const Exact_plane& h) { return {h[0], h[1], h[2]}; }
+
+/// Between p and q, of which the heights above a plane are given, where that is. Pre: they are on both sides of it.
+Exact_point crossing(const Exact_point& p, const Exact_point& q, const Rational& at, const Rational& after) {
+  const Rational share = at / (at - after);
+  Exact_point point;
+  for (std::size_t k = 0; k < 3; ++k) point[k] = p[k] + share * (q[k] - p[k]);
+  return point;
 }
 
 /// The part of a convex polygon with sign * height >= 0; empty where that has no inside.
@@ -41,106 +53,177 @@ Polygon clipped(const Polygon& polygon, const Exact_plane& h, int sign) {
     const Rational at = sign * exact_height(h, p), after = sign * exact_height(h, q);
     beyond |= sgn(at) > 0;
     if (sgn(at) >= 0) part.push_back(p);
-    if (sgn(at) * sgn(after) >= 0) continue;
-    const Rational share = at / (at - after);
-    Exact_point crossing;
-    for (std::size_t k = 0; k < 3; ++k) crossing[k] = p[k] + share * (q[k] - p[k]);
-    part.push_back(crossing);
+    if (sgn(at) * sgn(after) < 0) part.push_back(crossing(p, q, at, after));
   }
   return beyond ? part : Polygon{};
 }
 
+/// The corners of what a convex polygon has in a plane.
+Polygon in_plane(const Polygon& polygon, const Exact_plane& h) {
+  Polygon common;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Exact_point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const Rational at = exact_height(h, p), after = exact_height(h, q);
+    if (sgn(at) == 0) common.push_back(p);
+    if (sgn(at) * sgn(after) < 0) common.push_back(crossing(p, q, at, after));
+  }
+  return common;
+}
+
+/// Whether what has these corners may meet the inside of a convex polygon that has the same plane: not where it is
+/// beyond an edge, or on it.
+bool may_meet_inside(const Polygon& common, const Polygon& polygon, const Exact_plane& plane) {
+  for (std::size_t i = 0; i < polygon.size() && !common.empty(); ++i) {
+    const Exact_point& a = polygon[i];
+    const Exact_point inwards = cross(normal_of(plane), minus(polygon[(i + 1) % polygon.size()], a));
+    if (std::all_of(common.begin(), common.end(), [&](const Exact_point& p) { return dot(inwards, minus(p, a)) <= 0; }))
+      return false;
+  }
+  return !common.empty();
+}
+
+/// Directions of which any finite number of planes and edges lets some pass.
+Exact_point direction_of_ray(long k) { return {Rational(1000003), Rational(7919 * k), Rational(104729 + k * k)}; }
+
+/// The first coordinate, which grows along a ray of the first direction, and two numbers that stay the same.
+Near_ranges along_first_rays(const Polygon& points) {
+  const Exact_point d = direction_of_ray(1);
+  Polygon turned;
+  for (const Exact_point& p : points)
+    turned.push_back({p[0], Rational(d[0] * p[1] - d[1] * p[0]), Rational(d[0] * p[2] - d[2] * p[0])});
+  return ranges_of(turned);
+}
+
 }  // namespace
 
-struct Weak_volume::Space {
-  explicit Space(const Polygon_soup& soup) : scene(soup), traits(scene), tree(build_bsp(traits, one_thread())) {}
-  Scene scene;
-  Exact_traits traits;
-  Exact_tree tree;
+struct Weak_volume::Face {
+  Polygon polygon;
+  Exact_plane plane;
+  int times;  // that it is given
+  Near_ranges box = ranges_of(polygon), along_rays = along_first_rays(polygon);
+
+  /// By how much the winding number on a ray from m is more before it than beyond; 0 too where m is in its plane, and
+  /// the ray is not. Nothing where the ray meets an edge, or is in its plane.
+  std::optional<int> step_along(const Exact_point& m, const Exact_point& direction) const {
+    const int slope = sgn(dot(normal_of(plane), direction)), at = sgn(exact_height(plane, m));
+    if (slope == 0 && at == 0) return std::nullopt;
+    if (slope * at >= 0) return 0;
+    bool meets_edge = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Exact_point a = minus(polygon[i], m), b = minus(polygon[(i + 1) % polygon.size()], m);
+      const int side = slope * sgn(dot(direction, cross(a, b)));
+      if (side < 0) return 0;
+      meets_edge |= side == 0;
+    }
+    if (meets_edge) return std::nullopt;
+    return slope * times;
+  }
 };
 
 Weak_volume::~Weak_volume() = default;
 
-Weak_volume::Weak_volume(const Polygon_soup& soup) : space_(std::make_unique<const Space>(soup)) {
-  const Scene& scene = space_->scene;
+Weak_volume::Weak_volume(const Polygon_soup& soup,
+                         const std::function<void(std::size_t done, std::size_t all)>& progress) {
+  const Scene scene(soup);
   if (scene.pieces().empty()) throw std::invalid_argument("a volume has no faces; give those of a closed polyhedron");
   if (!closure(scene).closed)
     throw std::invalid_argument(
         "the faces of a volume do not close up; add those that are missing, and turn the others so that all fronts "
         "look outwards, or all inwards");
+  const std::vector<int> times = times_given(scene);
   for (const Piece& piece : scene.pieces()) {
-    Polygon& polygon = polygons_.emplace_back();
+    Polygon polygon;
     for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
-    planes_.push_back(scene.file_coefficients(piece.support));
-    boxes_.push_back(exact_box(polygon));
+    faces_.push_back({std::move(polygon), scene.file_coefficients(piece.support), times[faces_.size()]});
   }
   Polygon corners;
-  for (const std::array<Exact_point, 2>& box : boxes_) corners.insert(corners.end(), box.begin(), box.end());
-  box_ = exact_box(corners);
-  for (std::size_t k = 0; k < polygons_.size(); ++k) add_surface(polygons_[k], planes_[k]);
+  for (const Face& face : faces_) corners.insert(corners.end(), face.polygon.begin(), face.polygon.end());
+  box_ = ranges_of(corners);
+  for (std::size_t k = 0; k < faces_.size(); ++k)
+    add_surface(k, [&] {
+      if (progress) progress(k, faces_.size());
+    });
   if (surface_.empty())
     throw std::invalid_argument("the faces of a volume enclose nothing; give those of a closed polyhedron");
 }
 
 bool Weak_volume::sees_from_within(const std::vector<Exact_point>& polygon, bool behind) const {
-  if (apart(exact_box(polygon), box_)) return false;
+  if (are_apart(ranges_of(polygon), box_)) return false;
   const Exact_plane plane = exact_plane(polygon);
-  const std::vector<Polygon> parts = parts_of(polygon);
+  const std::vector<Polygon> parts = parts_of(polygon, plane, [] {}).polygons;
   return std::any_of(parts.begin(), parts.end(),
-                     [&](const Polygon& part) { return is_inside_beside(part, plane, behind ? -1 : 1); });
+                     [&](const Polygon& part) { return winding_beside(part, plane, behind ? -1 : 1) != 0; });
 }
 
-std::vector<Weak_volume::Polygon> Weak_volume::parts_of(const Polygon& polygon) const {
-  std::vector<Polygon> parts{polygon};
-  const std::array<Exact_point, 2> box = exact_box(polygon);
-  for (std::size_t k = 0; k < polygons_.size(); ++k) {
-    if (apart(box, boxes_[k])) continue;
+Weak_volume::Parts Weak_volume::parts_of(const Polygon& polygon, const Exact_plane& plane, const Go_on& go_on) const {
+  Parts parts{{polygon}, 0};
+  const Near_ranges box = ranges_of(polygon);
+  for (const Face& face : faces_) {
+    if (are_apart(box, face.box)) continue;
+    const Polygon common = in_plane(face.polygon, plane);
+    if (!may_meet_inside(common, polygon, plane)) continue;
+    parts.covers += common.size() == face.polygon.size();
     std::vector<Polygon> cut;
-    for (Polygon& part : parts) {
-      Polygon front = clipped(part, planes_[k], 1), behind = clipped(part, planes_[k], -1);
+    for (Polygon& part : parts.polygons) {
+      go_on();
+      Polygon front, behind;
+      if (may_meet_inside(common, part, plane)) {
+        front = clipped(part, face.plane, 1);
+        behind = clipped(part, face.plane, -1);
+      }
       if (!front.empty() && !behind.empty()) {
         cut.push_back(std::move(front));
         cut.push_back(std::move(behind));
       } else cut.push_back(std::move(part));
     }
-    parts = std::move(cut);
+    parts.polygons = std::move(cut);
   }
   return parts;
 }
 
-bool Weak_volume::is_inside_beside(const Polygon& part, const Exact_plane& plane, int beside) const {
-  Exact_point mean{0, 0, 0}, direction;
+int Weak_volume::winding_beside(const Polygon& part, const Exact_plane& plane, int beside) const {
+  Exact_point mean{0, 0, 0};
   for (std::size_t k = 0; k < 3; ++k) {
     for (const Exact_point& p : part) mean[k] += p[k];
     mean[k] /= static_cast<long>(part.size());
-    direction[k] = beside * plane[k];
   }
-  Rational step = 1;
-  for (const Exact_plane& h : planes_) {
-    const Rational at = exact_height(h, mean), slope = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2];
-    if (sgn(at) * sgn(slope) < 0) step = std::min(step, Rational(-at / (2 * slope)));
-  }
-  for (Predicate_counts counts;; step /= 2) {
-    Exact_point beside_it;
-    for (std::size_t k = 0; k < 3; ++k) beside_it[k] = mean[k] + step * direction[k];
-    const Location location = locate_point(space_->traits, space_->tree, beside_it, true, counts).location;
-    if (location != Location::on)
-      return location == Location::inside;  // on: in a face upright on the part, that the surface passes twice
+  const Near_ranges of_mean = along_first_rays({mean});
+  for (long k = 1;; ++k) {
+    Exact_point direction = direction_of_ray(k);
+    const int towards = beside * sgn(dot(normal_of(plane), direction));
+    if (towards == 0) continue;
+    for (Rational& x : direction) x *= towards;
+    const auto misses = [&](const Near_ranges& of_face) {
+      return are_apart(of_mean, of_face, 1) || are_apart(of_mean, of_face, 2) ||
+             (towards > 0 ? of_face[0][1] < of_mean[0][0] : of_face[0][0] > of_mean[0][1]);
+    };
+    std::optional<int> winding = 0;
+    for (std::size_t f = 0; f < faces_.size() && winding; ++f) {
+      if (k == 1 && misses(faces_[f].along_rays)) continue;
+      const std::optional<int> step = faces_[f].step_along(mean, direction);
+      winding = step ? std::optional(*winding + *step) : std::nullopt;
+    }
+    if (winding) return *winding;
   }
 }
 
-void Weak_volume::add_surface(const Polygon& polygon, const Exact_plane& plane) {
-  const std::vector<Polygon> parts = parts_of(polygon);
+void Weak_volume::add_surface(std::size_t k, const Go_on& go_on) {
+  const Face& face = faces_[k];
+  const Parts parts = parts_of(face.polygon, face.plane, go_on);
   std::vector<int> looks;  // 1: to its front, -1: to its back, 0: the inside is on both sides, or on none
-  for (const Polygon& part : parts)
-    looks.push_back(int{is_inside_beside(part, plane, -1)} - int{is_inside_beside(part, plane, 1)});
+  for (const Polygon& part : parts.polygons) {
+    go_on();
+    const int front = winding_beside(part, face.plane, 1),
+              behind = parts.covers == 1 ? front + face.times : winding_beside(part, face.plane, -1);
+    looks.push_back(int{behind != 0} - int{front != 0});
+  }
   const auto add = [&](Polygon part, int look) {
     if (look < 0) std::reverse(part.begin(), part.end());
     if (look != 0) surface_.push_back(std::move(part));
   };
   if (std::all_of(looks.begin(), looks.end(), [&](int look) { return look == looks[0]; }))
-    return add(polygon, looks[0]);
-  for (std::size_t k = 0; k < parts.size(); ++k) add(parts[k], looks[k]);
+    return add(face.polygon, looks[0]);
+  for (std::size_t p = 0; p < parts.polygons.size(); ++p) add(parts.polygons[p], looks[p]);
 }
 
 std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume& volume, bool two_sided,

@@ -8,8 +8,8 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <array>
+#include <cstddef>
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace sightline {
@@ -19,12 +19,15 @@ namespace sightline {
 /// as often as it is given. What some point of its inside sees is
 /// what its surface sees outwards, and the faces of which it sees a part right in front, from within. Faces of the
 /// scene that lie in the surface hide nothing from it, as a source that is a face does not hide what is in front of it.
-/// Cost: a tree of its faces; where its faces cross one another's planes nearby, a point location for each part that
-/// these cut a face into. Exact: yes. Proof: P-08, P-74
+/// Cost: for each face a ray, which looks at the ranges of all faces in doubles and at those that it is near exactly;
+/// where others meet a face's inside, a ray for each part that their planes cut it into, two where one of them is in
+/// its plane. Exact: yes. Proof: P-08, P-74
 class Weak_volume {
  public:
-  /// Errors: std::invalid_argument where the faces do not close up, or enclose nothing.
-  explicit Weak_volume(const Polygon_soup& soup);
+  /// Errors: std::invalid_argument where the faces do not close up, or enclose nothing. `progress` is told how far it
+  /// is; what it throws ends it.
+  explicit Weak_volume(const Polygon_soup& soup,
+                       const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
   ~Weak_volume();
 
@@ -40,22 +43,24 @@ class Weak_volume {
 
  private:
   using Polygon = std::vector<Exact_point>;
+  /// Is called all the time, and may throw.
+  using Go_on = std::function<void()>;
+  struct Face;
+  struct Parts {
+    std::vector<Polygon> polygons;
+    std::size_t covers;  // faces that may cover some of them
+  };
 
-  /// A polygon in parts between which the surface may pass, cut by the planes of faces whose boxes meet its own. On
+  /// A polygon in parts between which the surface may pass, cut by the planes of faces that may meet its inside. On
   /// each part, all points right in front are inside, or none; likewise right behind.
-  std::vector<Polygon> parts_of(const Polygon& polygon) const;
-  /// Whether the points right in front (side 1) or behind (-1) of a part are inside: one of them, nearer than all
-  /// planes of faces that its mean is not in.
-  bool is_inside_beside(const Polygon& part, const Exact_plane& plane, int beside) const;
+  Parts parts_of(const Polygon& polygon, const Exact_plane& plane, const Go_on& go_on) const;
+  /// The winding number of the points right in front (side 1) or behind (-1) of a part: along a ray from its mean.
+  int winding_beside(const Polygon& part, const Exact_plane& plane, int beside) const;
 
-  void add_surface(const Polygon& polygon, const Exact_plane& plane);
+  void add_surface(std::size_t k, const Go_on& go_on);
 
-  struct Space;
-  std::unique_ptr<const Space> space_;  // which points are inside
-  std::vector<Polygon> polygons_;
-  std::vector<Exact_plane> planes_;
-  std::vector<std::array<Exact_point, 2>> boxes_;
-  std::array<Exact_point, 2> box_;  // of all of them
+  std::vector<Face> faces_;
+  std::array<std::array<double, 2>, 3> box_;  // of all of them, in nearest doubles
   std::vector<Polygon> surface_;
 };
 

@@ -41,7 +41,8 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
     }
     Near_polygon target = occluders.polygon(piece);
     if (const std::uint32_t blocker = likely[s].empty() ? no_blocker : likely[s][piece];
-        blocker != no_blocker && occluders.blocks_all(blocker, source, target, pairs_of(source, target))) {
+        blocker != no_blocker && source.size() * target.size() <= most_pairs &&
+        occluders.blocks_all(blocker, source, target, pairs_of(source, target))) {
       ++counters.targets;
       ++counters.by_one;
       ++counters.blocked;

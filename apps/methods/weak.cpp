@@ -41,9 +41,9 @@ static void add_source(Sources& sources, const Occluders& occluders, const std::
 }
 
 static void add_volume(Sources& sources, const Occluders& occluders, const Polygon_soup& soup,
-                       const std::string& option) {
+                       const std::string& option, const Report& progress) {
   try {
-    for (const std::vector<Exact_point>& part : sources.volumes.emplace_back(soup).surface())
+    for (const std::vector<Exact_point>& part : sources.volumes.emplace_back(soup, progress).surface())
       add_source(sources, occluders, part);
   } catch (const std::invalid_argument& error) {
     throw Usage_error(option + ": " + error.what());
@@ -58,7 +58,7 @@ static void check_face(const Scene& scene, Face_id face, const std::string& opti
 }
 
 Sources sources_of(const Source_arguments& arguments, const Common& common, const Polygon_soup& soup,
-                   const Occluders& occluders) {
+                   const Occluders& occluders, const Report& progress) {
   if (arguments.faces.empty() && arguments.polygons.empty() && arguments.volumes.empty() && arguments.solid.empty())
     throw Usage_error(
         "say what looks: --from-face ID, --from \"X,Y,Z X,Y,Z X,Y,Z ...\", --from-volume FILE or --from-faces "
@@ -88,11 +88,11 @@ Sources sources_of(const Source_arguments& arguments, const Common& common, cons
     Common of_file = common;
     of_file.scene = file;
     of_file.flip = false;  // that turns SCENE alone
-    add_volume(sources, occluders, of_file.read(), "--from-volume " + file);
+    add_volume(sources, occluders, of_file.read(), "--from-volume " + file, progress);
   }
   if (!arguments.solid.empty()) {
     for (const Face_id face : arguments.solid) check_face(scene, face, "--from-faces");
-    add_volume(sources, occluders, generate::with_faces(soup, arguments.solid), "--from-faces");
+    add_volume(sources, occluders, generate::with_faces(soup, arguments.solid), "--from-faces", progress);
   }
   return sources;
 }

@@ -28,9 +28,10 @@ struct Sources {
   std::vector<Weak_source> polygons;
   std::list<Weak_volume> volumes;
 };
-/// Errors: Usage_error where there are none, or that name what is none.
+/// Errors: Usage_error where there are none, or that name what is none. `progress` is told how far each volume is; what
+/// it throws ends it.
 Sources sources_of(const Source_arguments& arguments, const Common& common, const Polygon_soup& soup,
-                   const Occluders& occluders);
+                   const Occluders& occluders, const Report& progress = {});
 
 struct Weak_task {
   bool two_sided = false;

@@ -131,8 +131,8 @@ std::string Division::question() const {
   return "";
 }
 
-std::vector<std::uint32_t> Division::groups(const Level_cells& level) const {
-  if (kind == Kind::regions) return known_regions.empty() ? convex_regions(level, regions) : known_regions;
+std::vector<std::uint32_t> Division::groups(const Level_cells& level, const Report& progress) const {
+  if (kind == Kind::regions) return known_regions.empty() ? convex_regions(level, regions, progress) : known_regions;
   std::vector<std::uint32_t> groups;
   for (const Level_cell& cell : level.cells())
     groups.push_back(kind == Kind::boxes || (kind == Kind::volumes && cell.leaf < volumes) ? cell.leaf : no_cell);

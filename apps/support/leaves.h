@@ -30,8 +30,8 @@ struct Division {
   /// What a table has to name: it is another one without. Of the tree where that was given.
   std::string question() const;
 
-  /// By cell the box, volume or region that it is in; no_cell: none.
-  std::vector<std::uint32_t> groups(const Level_cells& level) const;
+  /// By cell the box, volume or region that it is in; no_cell: none. What `progress` throws ends it.
+  std::vector<std::uint32_t> groups(const Level_cells& level, const Report& progress = {}) const;
 };
 
 /// How cells are made: option --candidates, and --leaves, --grid, --volumes and --coarse, of which there may be one.

@@ -29,6 +29,10 @@ Shard shard_of(const std::string& text) {
             "SLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT or SLURM_ARRAY_TASK_MIN is no number; give --shard I/N");
       return *found;
     };
+    constexpr std::uint32_t most = 1'000'000;
+    if (number(count) > most)
+      throw Usage_error(
+          fmt::format("SLURM_ARRAY_TASK_COUNT {}: {} shards are the most; give --shard I/N", count, most));
     const std::uint32_t shard = number(id) - (least == nullptr ? 0 : number(least)), shards = number(count);
     if (shards == 0 || shard >= shards)
       throw Usage_error("SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT name no shard; give --shard I/N");

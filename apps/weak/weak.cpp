@@ -193,11 +193,11 @@ Exit run_weak(const Weak_arguments& arguments) {
   // 1. What is visible.
   Stopwatch watch;
   const Occluders occluders(scene);
-  const Sources sources = sources_of(arguments.sources, common, soup, occluders);
+  const Time_limit limit(common.budget);
+  const Sources sources = sources_of(arguments.sources, common, soup, occluders, common.within_budget());
   const double prepare_seconds = watch.seconds();
   Progress progress("searching");
   watch = {};
-  const Time_limit limit(common.budget);
   const Weak_outcome outcome =
       run_weak_method(arguments.method, occluders, sources,
                       task_of(arguments, limit, [&](std::size_t done, std::size_t all) { progress(done, all); }));

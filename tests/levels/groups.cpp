@@ -221,6 +221,8 @@ TEST(Convex_regions, of_boxes_are_put_together_again) {
   // Cells beside a box are at best six.
   const Level_cells level(cube);
   const std::vector<std::uint32_t> all = convex_regions(level, 1), none = convex_regions(level, 1000);
+  EXPECT_THROW(convex_regions(level, 1, [](std::size_t, std::size_t) { throw std::domain_error("over"); }),
+               std::domain_error);
   std::uint32_t regions = 0, solid = 0;
   for (Cell_id c = 0; c < all.size(); ++c) {
     if (level.cells()[c].is_solid) ++solid;

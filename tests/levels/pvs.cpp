@@ -7,6 +7,7 @@
 #include <sightline/algorithms/levels/ways.h>
 
 #include <algorithm>
+#include <atomic>
 #include <stdexcept>
 
 namespace sightline {
@@ -89,6 +90,7 @@ TEST(Cell_pvs, is_the_same_after_an_exception_in_the_middle) {
     calls = 0;
     EXPECT_THROW(search.ask(0, 1), std::runtime_error);
   }
+  throws_at = 0;
   const Cell_pvs again = search.ask(0, 1);
   EXPECT_EQ(again.visible, one.visible);
   EXPECT_EQ(again.counters.visible, one.counters.visible);
@@ -133,13 +135,24 @@ TEST(Cell_pvs, has_sightlines_that_end_before_walls_which_a_step_reaches) {
 TEST(Cell_pvs, out_of_time_is_undecided) {
   const Level_cells level(corpus_scene("general/two_rooms.map"));
   Pvs_options options;
-  options.search.out_of_time = [] { return true; };
-  const Cell_pvs pvs = mutually_visible_cells(level, options), whole = mutually_visible_cells(level);
+  std::atomic<bool> is_over = true;
+  std::atomic<std::size_t> asked = 0;
+  options.search.out_of_time = [&] {
+    ++asked;
+    return is_over.load();
+  };
+  Cell_pvs_search search(level, options);
+  const Cell_pvs pvs = search.ask(0, 1), whole = mutually_visible_cells(level);
   EXPECT_GT(pvs.counters.undecided, 0u);
+  EXPECT_LE(asked, 2 * pvs.counters.cells) << "it goes on although time is over";
   for (Cell_id c = 0; c < level.cells().size(); ++c)
     for (const Cell_id other : whole.visible[c])
       EXPECT_TRUE(std::binary_search(pvs.visible[c].begin(), pvs.visible[c].end(), other) ||
                   std::binary_search(pvs.undecided[c].begin(), pvs.undecided[c].end(), other));
+  is_over = false;
+  const Cell_pvs again = search.ask(0, 1);
+  EXPECT_EQ(again.counters.undecided, 0u) << "what was given up counts as done";
+  EXPECT_EQ(again.visible, whole.visible);
 }
 
 TEST(Pvs, of_rooms_leaves_out_what_has_a_way_out) {
@@ -167,8 +180,13 @@ TEST(Pvs, of_rooms_leaves_out_what_has_a_way_out) {
 TEST(Pvs, out_of_time_is_undecided) {
   const Level_cells level(corpus_scene("general/two_rooms.map"));
   Pvs_options options;
-  options.search.out_of_time = [] { return true; };
+  std::atomic<std::size_t> asked = 0;
+  options.search.out_of_time = [&] {
+    ++asked;
+    return true;
+  };
   const Pvs pvs = potentially_visible(level, options);
+  EXPECT_LE(asked, pvs.counters.faces) << "it goes on although time is over";
   const Pvs whole = potentially_visible(level);
   EXPECT_GT(pvs.counters.undecided, 0u);
   for (Cell_id c = 0; c < level.cells().size(); ++c)

@@ -738,6 +738,11 @@ TEST_F(Levels, shards_come_from_an_array_of_jobs) {
     setenv("SLURM_ARRAY_TASK_ID", id, 1);
     EXPECT_EQ(run({"pvs", rooms, "--json", "-"}).code, usage) << id;
   }
+  setenv("SLURM_ARRAY_TASK_ID", "3", 1);
+  setenv("SLURM_ARRAY_TASK_COUNT", "67108864", 1);  // of which 64 blocks each would be 2^32
+  const Outcome many = run({"pvs", rooms, "--resume", "--out", out("many.pvs")});
+  EXPECT_EQ(many.code, usage);
+  EXPECT_NE(many.err.find("SLURM_ARRAY_TASK_COUNT 67108864"), std::string::npos) << many;
   for (const char* name : {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN"}) unsetenv(name);
   EXPECT_EQ(whole["faces"], 71);
   EXPECT_EQ(part["faces"], 35);  // 1, 3, ... 69

@@ -507,7 +507,12 @@ TEST(Weak_size, of_cuts_and_cells_is_bounded) {
   expect_accepted(round);  // nothing passes on that side
   Weak_scene large;
   large.from(disc(4000, 0, true)).face(disc(4000, 3, false));
-  expect_rejected(large.hide(0, {away()}), "fragment 0 and source 0 have too many corners to be checked");
+  large.face(up(-5, 6, -5, 6, 1));
+  large.hide(0, {blocked(1)}).hide(1, {away()});
+  expect_rejected(large, "fragment 0 and source 0 have too many corners to be checked");
+  Weak_scene turned;  // what is away takes each corner once
+  turned.from(disc(4000, 0, true)).face(disc(4000, 3, true));
+  expect_accepted(turned.hide(0, {away()}), " and 3993 more corners looking to ");
   Weak_scene terms = closed_slit();
   Rational fine = 1 / Rational((Integer(1) << 6'000'000) + 1);
   terms.certificate.hidden[0].proof[2].terms = {term(0, fine), term(1, fine)};

@@ -223,6 +223,25 @@ TEST(One_piece, of_so_many_corners_that_several_boxes_hold_it_blocks_all_too) {
   EXPECT_EQ(found.counters.by_one, 1u);
 }
 
+TEST(One_piece, before_too_many_pairs_of_corners_is_not_looked_for_nor_are_proofs) {
+  using weak_scenes::at;
+  using weak_scenes::reversed;
+  const auto on_parabola = [](long z) {
+    std::vector<Exact_point> arc;
+    for (int x = 0; x <= 3200; ++x) arc.push_back(at(x, x * x, z));
+    return arc;
+  };
+  const auto seen = [&](const std::vector<std::vector<Exact_point>>& faces) {
+    const Scene scene(weak_scenes::soup_of(faces));
+    const Occluders occluders(scene);
+    return weakly_visible(occluders, {weak_source(occluders, on_parabola(0))});
+  };
+  const std::vector<Exact_point> target = reversed(on_parabola(9)),
+                                 between = weak_scenes::rectangle(-1, 3300, -1, 20000000, 1);
+  EXPECT_EQ(seen({target}).visible, std::vector<Face_id>{0});
+  EXPECT_EQ(seen({target, between}).undecided, std::vector<Face_id>{0});
+}
+
 TEST(Small_sides, are_those_of_big_integers_up_to_forty_bits_and_in_planes) {
   using weak_scenes::at;
   const Integer most = (Integer(1) << 40) - 1;

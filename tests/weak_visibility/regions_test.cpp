@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 namespace weak_regions {
 namespace {
 
@@ -438,6 +440,28 @@ TEST(Volume, of_nested_boxes_that_share_a_face_closes_and_counts_it_twice) {
 
   Faces open = joined(box(0, 2, 0, 2, 0, 3), {box(0, 2, 0, 2, 0, 3)[0]});
   EXPECT_THROW(Weak_volume(generate::soup_of(open)), std::invalid_argument) << "one face twice, and no other";
+}
+
+TEST(Volume, of_many_faces_takes_a_ray_for_each_where_none_meets_the_inside_of_another) {
+  // Two pyramids over a concave polygon about their tops; planes of faces pass through others all over.
+  constexpr long n = 24;
+  Points zigzag;
+  for (long k = 0; k <= n; ++k) zigzag.push_back(at(k, k * k + (k % 2 == 1 ? Rational(3, 2) : Rational(0)), 0));
+  Faces faces;
+  for (std::size_t i = 0; i < zigzag.size(); ++i) {
+    const Exact_point &a = zigzag[i], &b = zigzag[(i + 1) % zigzag.size()];
+    faces.push_back({a, b, at(n / 2, 3 * n * n / 8, n)});
+    faces.push_back({b, a, at(n / 2, 3 * n * n / 8, -n)});
+  }
+  std::size_t told = 0;
+  const Weak_volume volume(generate::soup_of(faces), [&](std::size_t done, std::size_t all) {
+    EXPECT_LT(done, all);
+    ++told;
+  });
+  EXPECT_EQ(volume.surface().size(), faces.size());
+  EXPECT_LE(told, 2 * faces.size()) << "faces are cut";
+  const auto end = [](std::size_t, std::size_t) { throw std::domain_error("over"); };
+  EXPECT_THROW(Weak_volume(generate::soup_of(faces), end), std::domain_error);
 }
 
 TEST(Sources, are_named_by_their_strict_corners_in_certificates) {

@@ -11,12 +11,20 @@ Line_domain::Line_domain(Shared_polygon s, Shared_polygon t)
     : shared_source(std::move(s)), shared_target(std::move(t)), source(*shared_source), target(*shared_target) {
   for (const Near_point& p : source) source_size = std::max(source_size, size(p.near));
   for (const Near_point& q : target) target_size = std::max(target_size, size(q.near));
-  pairs = pairs_of(source, target);
-  ways.reserve(pairs.size());
+}
+
+const std::vector<Pluecker>& Line_domain::pairs() {
+  if (pairs_.empty()) pairs_ = pairs_of(source, target);
+  return pairs_;
+}
+
+void Line_domain::make_ways() {
+  if (!ways_.empty()) return;
+  ways_.reserve(pair_count());
   for (const Near_point& p : source)
     for (const Near_point& q : target) {
-      ways.push_back(way_between(p.near, p.rest, q.near, q.rest));
-      longest = std::max(longest, size(ways.back()));
+      ways_.push_back(way_between(p.near, p.rest, q.near, q.rest));
+      longest_ = std::max(longest_, size(ways_.back()));
     }
 }
 
@@ -38,7 +46,7 @@ Integer Line_domain::weight_of(std::size_t c) const {
 const std::vector<Rational>& Line_domain::exact_sides(const Edge_lines& lines, std::uint32_t id,
                                                       const Near_frame& frame) {
   std::vector<Rational>& exact = row_at(lines, id, frame).exact;
-  for (std::size_t c = exact.size(); c < pairs.size(); ++c) exact.push_back(exact_side(lines[id], c, frame));
+  for (std::size_t c = exact.size(); c < pair_count(); ++c) exact.push_back(exact_side(lines[id], c, frame));
   return exact;
 }
 
@@ -49,20 +57,21 @@ Side_row& Line_domain::row_at(const Edge_lines& lines, std::uint32_t id, const N
 }
 
 Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame& frame) {
+  make_ways();
   Side_row r;
-  r.values.reserve(pairs.size());
+  r.values.reserve(pair_count());
   double most = 0, between = 0;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const Triple to_line = way_between(source[i].near, source[i].rest, line.from, line.rest),
                  moment = cross(line.along, to_line);
     between = std::max(between, size(to_line));
     for (std::size_t j = 0; j < target.size(); ++j) {
-      const Triple& way = ways[i * target.size() + j];
+      const Triple& way = ways_[i * target.size() + j];
       r.values.push_back(dot(moment, way));
       most = std::max(most, std::fabs(r.values.back()));
     }
   }
-  r.error = side_error(longest, size(line.along), between, source_size + target_size + line.reach);
+  r.error = side_error(longest_, size(line.along), between, source_size + target_size + line.reach);
   // 1. One side on all pairs? Integers are asked only if doubles do not show both signs.
   bool positive = false, negative = false;
   for (const double v : r.values) {
@@ -89,12 +98,12 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
   } else if (r.decided == 0) {  // small polygons, a line close to all of them, or far away: integers, rounded once
     std::vector<Integer> sides;
     long largest = std::numeric_limits<long>::min();
-    for (std::size_t c = 0; c < pairs.size(); ++c) {
+    for (std::size_t c = 0; c < pair_count(); ++c) {
       sides.push_back(dot(exact_pluecker_of(c), line.exact()));
       if (sgn(sides[c]) != 0) largest = std::max(largest, frame.exponent_of_cubic(sides[c], weight_of(c)));
     }
     r.exponent = largest == std::numeric_limits<long>::min() ? 0 : -largest;
-    for (std::size_t c = 0; c < pairs.size(); ++c) r.values[c] = frame.near_cubic(sides[c], weight_of(c), r.exponent);
+    for (std::size_t c = 0; c < pair_count(); ++c) r.values[c] = frame.near_cubic(sides[c], weight_of(c), r.exponent);
     r.error = 0x1p-52;
   }
   for (const std::size_t c : zeros) r.values[c] = 0;

@@ -50,12 +50,13 @@ struct Line_domain {
     return row_at(lines, id, frame);
   }
 
+  std::size_t pair_count() const { return source.size() * target.size(); }
+  /// Made when they are first asked for, as most domains end before.
+  const std::vector<Pluecker>& pairs();
+
   Shared_polygon shared_source, shared_target;
   const Near_polygon &source, &target;
   double source_size = 0, target_size = 0;
-  std::vector<Pluecker> pairs;
-  std::vector<Triple> ways;                 ///< of pairs, from source to target
-  double longest = 0;                       ///< of them
   std::vector<Exact_pluecker> exact_pairs;  ///< once they are asked for
   std::vector<std::unique_ptr<Side_row>> rows;
   std::vector<Candidate> candidates;  ///< once they are asked for: `settled`
@@ -63,9 +64,14 @@ struct Line_domain {
   int bisections = 0, narrowed = 0, sectors = 0;  ///< how often it was made smaller, and how
 
  private:
+  void make_ways();
   Side_row& row_at(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame);
   Side_row row_of(const Edge_lines::Edge_line& line, const Near_frame& frame);
   Integer weight_of(std::size_t c) const;  ///< the product of a pair's last coordinates
+
+  std::vector<Pluecker> pairs_;
+  std::vector<Triple> ways_;  // of pairs, from source to target, once a row is asked for
+  double longest_ = 0;        // of them
 };
 
 /// A line that is passed on the side `sign`.
@@ -86,7 +92,7 @@ struct Line_cell {
   const Near_frame* frame;
   std::vector<Row> rows;
 
-  std::size_t pairs() const { return domain->pairs.size(); }
+  std::size_t pairs() const { return domain->pair_count(); }
   double value(std::size_t row, std::size_t c) const { return rows[row].literal.sign * rows[row].sides->values[c]; }
   /// What value() is a rounded one of. Exact: yes.
   Rational exact_value(std::size_t row, std::size_t c) const;

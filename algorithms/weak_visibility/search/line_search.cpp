@@ -82,6 +82,7 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
   }
   if (options_->rays > 0 && try_lines(*domains_[d])) return {Weak_status::visible, 0, {}};
   Line_domain& domain = *domains_[d];
+  if (domain.pair_count() > most_pairs) return open();
   for (const std::uint32_t piece : occluders_->near_shaft(domain.source, domain.target))
     domain.candidates.push_back({piece, 0, 0});
   settle(domain);
@@ -90,14 +91,15 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
   return refute(d, 0);
 }
 
-std::optional<std::uint32_t> Line_search::whole_blocker(const Line_domain& domain) const {
+std::optional<std::uint32_t> Line_search::whole_blocker(Line_domain& domain) const {
+  if (domain.pair_count() > most_pairs) return std::nullopt;
   const Line_weights line = Line_weights::middle(domain);
   const auto corners = [](const Near_polygon& polygon) {
     return Occluders::Segment{polygon[0].near, polygon[polygon.size() / 2].near};
   };
   return occluders_->on_segment(
       {weighted_mean(domain.source, line.source), weighted_mean(domain.target, line.target)},
-      [&](std::uint32_t piece) { return occluders_->blocks_all(piece, domain.source, domain.target, domain.pairs); },
+      [&](std::uint32_t piece) { return occluders_->blocks_all(piece, domain.source, domain.target, domain.pairs()); },
       Occluders::segments_between(corners(domain.source), corners(domain.target)));
 }
 

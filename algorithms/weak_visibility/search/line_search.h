@@ -69,11 +69,11 @@ class Line_search {
   // ---- From the whole to the first cell
 
   /// Leaves only what source and target have in front of each other, looks for one piece between all of it, tries some
-  /// lines, then searches.
+  /// lines, then searches; not among more than `most_pairs`.
   Refutation begin(std::uint32_t d);
 
   /// A piece that blocks all of a domain's lines, if one of those that the line of middles meets does. Proof: P-71
-  std::optional<std::uint32_t> whole_blocker(const Line_domain& domain) const;
+  std::optional<std::uint32_t> whole_blocker(Line_domain& domain) const;
 
   /// Whether both points are off a piece's plane, in doubles: else the piece may only touch their segment's end.
   bool is_between(std::uint32_t piece, const Triple& p, const Triple& q) const;
