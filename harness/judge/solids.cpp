@@ -276,8 +276,8 @@ Grade grade_solid(const Solid_truth& truth, const Answer& answer) {
   }
   grade.wrong_visible.assign(shown.begin(), shown.end());
   grade.wrong_hidden.assign(hidden.begin(), hidden.end());
-  // 3. Volume and area, of the same parts.
-  const Polygon_soup parts = oracle.parts();
+  // 3. Volume and area, of the same parts where a face is not planar; else its faces are summed as the truth's are.
+  const Polygon_soup parts = oracle.has_bent_faces() ? oracle.parts() : surface;
   grade.volume_error = nearest_double((volume(parts) - truth.volume) / truth.volume_scale);
   grade.area_error = (middle_area(parts, truth.unit) - truth.area) / truth.area_scale;
   return grade;

@@ -14,6 +14,7 @@ Solid_oracle::Solid_oracle(const Polygon_soup& soup) {
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     const Scene alone(generate::face_alone(soup, f));
     for (Flat_face& face : flat_faces_of(alone)) faces_.push_back(std::move(face));
+    has_bent_faces_ |= !alone.non_planar().empty();
     if (std::any_of(alone.set_aside().begin(), alone.set_aside().end(),
                     [](const Set_aside& aside) { return aside.reason != Set_aside_reason::zero_area; }))
       unusable_.push_back(f);

@@ -18,6 +18,7 @@ class Solid_oracle {
 
   /// Faces with area that bound nothing: they cross themselves.
   const std::vector<Face_id>& unusable() const { return unusable_; }
+  bool has_bent_faces() const { return has_bent_faces_; }
   /// The convex parts, each with points of its own.
   Polygon_soup parts() const;
   bool is_on_a_face(const Exact_point& p) const;
@@ -27,6 +28,7 @@ class Solid_oracle {
  private:
   std::vector<Flat_face> faces_;
   std::vector<Face_id> unusable_;
+  bool has_bent_faces_ = false;
 };
 
 std::vector<Exact_point> corners_of(const Polygon_soup& soup);
