@@ -3,8 +3,10 @@
 #include <sightline/algorithms/verify/pairs.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/kernel/plane.h>
+#include <sightline/kernel/scene/exact_plane.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 
@@ -50,16 +52,11 @@ Flat_polygon Order_truth::Face::flat(const std::vector<Exact_point>& points) con
 }
 
 bool Order_truth::Face::leaves(const std::vector<Exact_point>& part) const {
-  Rational most = 0;  // side of the face's box
-  for (std::size_t k = 0; k < 3; ++k) {
-    Rational least = pieces[0][0][k], greatest = least;
-    for (const order_check::Polygon& polygon : pieces)
-      for (const Exact_point& p : polygon) {
-        least = std::min(least, p[k]);
-        greatest = std::max(greatest, p[k]);
-      }
-    most = std::max(most, Rational(greatest - least));
-  }
+  order_check::Polygon corners;
+  for (const order_check::Polygon& polygon : pieces) corners.insert(corners.end(), polygon.begin(), polygon.end());
+  const std::array<Exact_point, 2> box = exact_box(corners);
+  Rational most = 0;  // side of the box
+  for (std::size_t k = 0; k < 3; ++k) most = std::max(most, Rational(box[1][k] - box[0][k]));
   return std::any_of(part.begin(), part.end(), [&](const Exact_point& p) {
     const Rational height = (plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3]) / plane[axis];
     return Rational(abs(height) * (1 << tolerance_bits)) > most;
