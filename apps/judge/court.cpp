@@ -215,8 +215,7 @@ std::vector<std::string> Court::keep_files(const std::string& folder, const std:
   std::vector<std::string> stale{stem + ".svg"};
   if (!said) stale.push_back(stem + ".answer");
   if (stem == "smallest")
-    for (const std::string& ending : {options_.format, std::string("json"), std::string("answer"), std::string("svg")})
-      stale.push_back("reduced." + ending);
+    for (const std::string& ending : kept_endings(options_.format)) stale.push_back("reduced." + ending);
   for (const std::string& name : stale) fs::remove(fs::path(folder) / name);
   return kept;
 }

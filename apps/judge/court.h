@@ -48,6 +48,9 @@ class Court {
   /// The answer as it is read. Errors: std::invalid_argument.
   judge::Answer read(const Judge_case& asked, const std::string& said) const;
 
+  /// What names of kept files end in: of the scene, the query, the answer and a picture.
+  static std::vector<std::string> kept_endings(const std::string& format) { return {format, "json", "answer", "svg"}; }
+
   /// Writes the files of a case to a folder, so that the program can be asked again by hand: as it was asked, whatever
   /// the program did to its own. Returns their names: STEM.off or what the format is, STEM.json, STEM.answer. Errors:
   /// as write_file.

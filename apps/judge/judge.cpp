@@ -29,7 +29,7 @@ void check_kept(const Judge_arguments& arguments) {
   std::erase_if(inputs, is_left_out);
   std::erase_if(outputs, is_left_out);
   for (const std::string stem : {"smallest.", "reduced."})
-    for (const std::string& ending : {arguments.format, std::string("json"), std::string("answer"), std::string("svg")})
+    for (const std::string& ending : Court::kept_endings(arguments.format))
       outputs.push_back({"--keep", (std::filesystem::path(arguments.keep) / (stem + ending)).string()});
   check_files(inputs, outputs);
 }
