@@ -195,6 +195,13 @@ TEST(Depth_buffer, refuses_sizes_bits_and_planes_that_make_no_sense) {
   EXPECT_THROW(look(scene, 4, 33), std::invalid_argument);
   EXPECT_THROW(look(scene, 4, 24, -1), std::invalid_argument);
   EXPECT_THROW(look(scene, 4, 24, 3, 2), std::invalid_argument);
+  // Directions in one plane, and such as span more than doubles hold.
+  Pixel_view pixels{origin, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 4, 4};
+  EXPECT_NO_THROW(depth_image(scene, pixels));
+  pixels.right = pixels.up;
+  EXPECT_THROW(depth_image(scene, pixels), std::invalid_argument);
+  EXPECT_THROW(depth_image(scene, {origin, {0, 0, 0x1p400}, {0x1p400, 0, 0}, {0, 0x1p400, 0}, 4, 4}),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -431,6 +431,19 @@ void expect_exact_points(const Polygon_soup& soup, const Scene& scene) {
       box[1][k] = std::max(box[1][k], soup.point(p)[k]);
     }
   ASSERT_EQ(scene.box(), box);
+  if (scene.pieces().empty()) return;
+  // And that of the faces that are kept.
+  std::optional<std::array<Exact_point, 2>> of_faces;
+  for (const Piece& piece : scene.pieces())
+    for (const Piece_corner& corner : scene.corners(piece)) {
+      const Exact_point p = scene.position(corner.point);
+      if (!of_faces) of_faces = {p, p};
+      for (std::size_t k = 0; k < 3; ++k) {
+        (*of_faces)[0][k] = std::min((*of_faces)[0][k], p[k]);
+        (*of_faces)[1][k] = std::max((*of_faces)[1][k], p[k]);
+      }
+    }
+  ASSERT_EQ(scene.box_of_faces(), of_faces);
 }
 
 /// A vertex's side of a plane as the file's coordinates have it.

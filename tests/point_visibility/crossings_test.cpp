@@ -408,22 +408,27 @@ TEST(Lines_in_a_field, are_those_of_brute_force_on_its_rim_too) {
 }
 
 TEST(Lines_in_a_field, in_its_side_are_hidden_by_what_touches_it_from_outside) {
-  // A board that stands outside of the field, on its side x = y, before an edge in that side.
-  const Points board{{3, 3, -2}, {5, 3, -2}, {5, 3, 2}, {3, 3, 2}}, sail{{6, 6, -1}, {6, 6, 1}, {0, 8, 0}};
-  const Polygon_soup soup = view_scenes::soup_of({board, sail});
+  // A board that stands outside of the field, on its side x = y, before an edge in that side: from each of its corners.
+  Points board{{3, 3, -2}, {5, 3, -2}, {5, 3, 2}, {3, 3, 2}};
+  const Points sail{{6, 6, -1}, {6, 6, 1}, {0, 8, 0}};
   const std::vector<Exact_point> rays = rays_around(1, 1, 1);
-  expect_lines_of_the_field(soup, {0, 0, 0}, rays);
-  const Scene scene(soup);
-  const Exact_view view(scene, {0, 0, 0}, field_of(rays));
-  const auto surface = visible_surface(view, Piece_boxes(scene), field_of_view(view));
-  std::size_t hidden = 0;
-  for (const Drawn_edge& drawn : hidden_lines(view, surface, 1))
-    if (scene.position(drawn.edge.p)[0] == 6 && scene.position(drawn.edge.q)[0] == 6) {
-      ASSERT_EQ(drawn.parts.size(), 1u);
-      EXPECT_EQ(drawn.parts[0].hidden_by, 0u);
-      ++hidden;
-    }
-  EXPECT_EQ(hidden, 1u);
+  for (std::size_t first = 0; first < board.size(); ++first) {
+    SCOPED_TRACE(first);
+    const Polygon_soup soup = view_scenes::soup_of({board, sail});
+    expect_lines_of_the_field(soup, {0, 0, 0}, rays);
+    const Scene scene(soup);
+    const Exact_view view(scene, {0, 0, 0}, field_of(rays));
+    const auto surface = visible_surface(view, Piece_boxes(scene), field_of_view(view));
+    std::size_t hidden = 0;
+    for (const Drawn_edge& drawn : hidden_lines(view, surface, 1))
+      if (scene.position(drawn.edge.p)[0] == 6 && scene.position(drawn.edge.q)[0] == 6) {
+        ASSERT_EQ(drawn.parts.size(), 1u);
+        EXPECT_EQ(drawn.parts[0].hidden_by, 0u);
+        ++hidden;
+      }
+    EXPECT_EQ(hidden, 1u);
+    std::rotate(board.begin(), board.begin() + 1, board.end());
+  }
 }
 
 }  // namespace

@@ -13,6 +13,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <mutex>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -160,6 +162,21 @@ TEST(Shadow, is_the_same_for_any_number_of_threads) {
     EXPECT_EQ(made[0][i].by, made[1][i].by);
     EXPECT_EQ(made[0][i].vertices, made[1][i].vertices);
   }
+}
+
+TEST(Shadow, progress_ends_with_all_pieces) {
+  Polygon_soup soup;
+  for (int k = 0; k < 300; ++k) level(soup, 2 * k, 0, 0, 1);
+  const Scene scene(soup);
+  std::mutex one_at_a_time;
+  std::set<std::size_t> told;
+  Shadow_options options;
+  options.progress = [&](std::size_t done, std::size_t all) {
+    const std::lock_guard lock(one_at_a_time);
+    if (all == 300) told.insert(done);  // and before it what the light sees, in its own units
+  };
+  shadows(Exact_view(scene, {1, 2, 3}), Piece_boxes(scene), options);
+  EXPECT_EQ(told, (std::set<std::size_t>{256, 300}));
 }
 
 // ---- The space in shadow

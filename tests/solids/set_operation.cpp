@@ -256,6 +256,21 @@ TEST(Set_operations, merge_the_pieces_of_a_face_and_say_whose_it_is) {
   const Rational longest = generate::power_of_two(600);  // areas beyond doubles
   EXPECT_EQ(area(box({0, 0, 0}, {longest, longest, longest}))[1], std::numeric_limits<double>::infinity());
   EXPECT_LT(area(box({0, 0, 0}, {longest, longest, longest}))[0], std::numeric_limits<double>::infinity());
+  const Rational least(
+      1, generate::power_of_two(600).get_num());  // a rectangle across each axis, of less than doubles hold
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Polygon_soup tiny;
+    std::vector<Point_id> loop;
+    for (const auto& [u, v] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+      Exact_point p{0, 0, 0};
+      p[(axis + 1) % 3] = u * least;
+      p[(axis + 2) % 3] = v * least;
+      loop.push_back(tiny.add_point(p[0], p[1], p[2]));
+    }
+    tiny.add_face(loop);
+    EXPECT_EQ(area(tiny)[0], 0);
+    EXPECT_GT(area(tiny)[1], 0) << axis;
+  }
 }
 
 TEST(Set_operations, leave_faces_whole_that_nothing_cuts) {
