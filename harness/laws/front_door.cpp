@@ -7,8 +7,11 @@
 #include <sightline/sightline.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -54,6 +57,28 @@ std::string flaw_of_parts(const Model& model, const Seen& found) {
   return verdict.accepted ? std::string() : "the front door's parts are not what is seen: " + verdict.why;
 }
 
+/// That a model's facts are what its parts show.
+std::string flaw_of_facts(const Model& model, const Polygon_soup& soup) {
+  const Facts& facts = model.facts();
+  std::set<Face_id> faces;
+  std::optional<std::array<Exact_point, 2>> box;
+  for (const Part& part : model.parts()) {
+    faces.insert(part.face);
+    for (const Exact_point& p : part.corners) {
+      if (!box) box = {p, p};
+      for (std::size_t k = 0; k < 3; ++k) {
+        (*box)[0][k] = std::min((*box)[0][k], p[k]);
+        (*box)[1][k] = std::max((*box)[1][k], p[k]);
+      }
+    }
+  }
+  if (facts.box != box) return "the front door's box is not that of the faces";
+  if (facts.points_read != soup.point_count() || facts.faces_read != soup.face_count() || facts.faces != faces.size() ||
+      facts.parts != model.parts().size())
+    return "the front door counts other points, faces or parts than there are";
+  return {};
+}
+
 /// The eye's side of a convex part: 1 in front, -1 behind, 0 in its plane.
 int side_of(const Exact_point& eye, const std::vector<Exact_point>& corners) {
   Exact_point normal{0, 0, 0};
@@ -73,6 +98,7 @@ Answer ordered_by_front_door(const Posed_scene& posed) {
     answer.labels[part.face] |= side > 0 ? 1u : side < 0 ? 2u : 4u;
   }
   check_certificate(model, found, answer);
+  if (answer.flaw.empty()) answer.flaw = flaw_of_facts(model, posed.soup);
   return answer;
 }
 
