@@ -273,6 +273,36 @@ TEST_F(Judge, resumed_asks_again_about_a_scene_that_changed) {
             usage);
 }
 
+TEST_F(Judge, resumed_asks_again_about_a_scene_whose_buffer_changed) {
+  const auto buffer = [&](float last) {
+    const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, last, 0};
+    file("t.bin", {reinterpret_cast<const char*>(corners.data()), sizeof corners});
+  };
+  const std::string scene = file("t.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+      "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "t.bin", "byteLength": 36}]})");
+  const std::vector<std::string> words{"judge",
+                                       "--program",
+                                       shell("echo abstained all > $3"),
+                                       "--query",
+                                       "see",
+                                       "--contract",
+                                       "exact",
+                                       "--scenes",
+                                       scene,
+                                       "--cases",
+                                       "3",
+                                       "--resume",
+                                       "--json",
+                                       path("j.json").string()};
+  buffer(1);
+  ASSERT_EQ(run(words).code, done);
+  EXPECT_NE(run(words).out.find("3 of 3 cases were there"), std::string::npos);
+  buffer(2);
+  EXPECT_NE(run(words).out.find("0 of 3 cases were there"), std::string::npos);
+}
+
 TEST_F(Judge, grades_orders_of_a_stack) {
   // `stacked`: unit squares one above the other; some order of their numbers is right from every eye.
   const std::vector<std::string> options{"--query", "order",  "--contract", "exact",  "--families",
