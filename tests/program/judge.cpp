@@ -303,6 +303,29 @@ TEST_F(Judge, resumed_asks_again_about_a_scene_whose_buffer_changed) {
   EXPECT_NE(run(words).out.find("0 of 3 cases were there"), std::string::npos);
 }
 
+TEST_F(Judge, goes_on_where_a_program_leaves_what_is_in_the_way) {
+  const std::vector<std::string> options{"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "3"};
+  const auto invalid = [&](const std::string& script) {
+    return judge(shell(script), options, disagreement)["result"]["total"]["cases"]["invalid"];
+  };
+  EXPECT_EQ(invalid("rm $1 $2; mkdir $1 $2; touch $1/x"), 3);
+  // So deep that there are not enough descriptors to remove it.
+  const std::string log = path("log").string();
+  launcher_ = {"/bin/sh", "-c", "ulimit -n 64; export TMPDIR=\"$0\"; exec \"$@\"", path("").string()};
+  EXPECT_EQ(invalid("mkdir -p $3/$(seq -s / 100); basename $3 >> " + log), 3);
+  EXPECT_EQ(read_file(log), "answer\n1-answer\n2-answer\n");
+}
+
+TEST_F(Judge, that_cannot_make_the_folder_to_keep_says_so_before_it_asks) {
+  const std::string log = path("log").string(), keep = tower() + "/kept";
+  const Outcome r = run({"judge", "--program", shell("echo x >> " + log), "--query", "see", "--contract", "exact",
+                         "--scenes", tower(), "--cases", "1", "--keep", keep});
+  EXPECT_EQ(r.code, bad_input) << r;
+  EXPECT_TRUE(r.one_line_of_error()) << r;
+  EXPECT_NE(r.err.find(keep + ": cannot be made ("), std::string::npos) << r;
+  EXPECT_FALSE(fs::exists(log));
+}
+
 TEST_F(Judge, grades_orders_of_a_stack) {
   // `stacked`: unit squares one above the other; some order of their numbers is right from every eye.
   const std::vector<std::string> options{"--query", "order",  "--contract", "exact",  "--families",
