@@ -120,7 +120,7 @@ class Scene:
 
         Counts of points_read and of different points; of faces_read, faces that are kept, convex parts, concave,
         non_planar and with_holes faces, and supporting planes; bits of the largest coordinate on the scene's integer
-        grid; arithmetic; closed: whether the faces bound a solid; box: two points, or None; left_out.
+        grid; arithmetic; closed: whether the faces close up, as those of solids do; box: two points, or None; left_out.
         """
         return {**self._model.facts(), "left_out": self.left_out}
 
