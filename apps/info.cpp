@@ -174,7 +174,9 @@ static Exit run(const Common& common) {
                             c.non_planar, c.with_holes));
   row("planes", fmt::format("{} supporting planes; {} with those of edges; edges on {} lines", supporting,
                             scene.planes().size(), closing.lines));
-  row("closed", closing.closed ? "yes: the faces bound a solid" : "no");
+  row("closed", !closing.closed ? "no"
+                : c.faces > 0   ? "yes: the faces close up, as those of solids do"
+                                : "yes: there are no faces");
   if (fronts.points > 0) row("fronts", text_of(fronts));
   if (c.faces > 0) {
     const auto box = scene.box();

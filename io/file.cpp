@@ -52,6 +52,17 @@ fs::file_status status_of_input(const fs::path& path) {
   return status;
 }
 
+/// A FIFO that is standard input already is not opened anew: that could wait for a writer that is gone.
+std::FILE* opened(const fs::path& path) {
+#if __has_include(<unistd.h>)
+  if (path == "/dev/stdin" && fs::is_fifo(path)) {
+    const int own = dup(STDIN_FILENO);
+    return own < 0 ? nullptr : fdopen(own, "rb");
+  }
+#endif
+  return std::fopen(path.c_str(), "rb");
+}
+
 std::string shown(const fs::path& path) { return printable(path.string(), path.string().size(), false); }
 
 // ---- Files that are read, and kept
@@ -128,7 +139,7 @@ std::string read_bytes(const fs::path& path) {
 std::string read_own_bytes(const fs::path& path) {
   const fs::file_status status = status_of_input(path);
   std::error_code error;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(opened(path), std::fclose);
   if (!file) fail_to_open(path);
   std::string bytes;
   std::size_t used = 0;

@@ -9,7 +9,8 @@
 
 namespace sightline {
 
-/// All bytes of a file (or pipe). Errors: Input_error where there is none, or it cannot be read.
+/// All bytes of a file (or pipe; /dev/stdin is not opened anew where it is one). Errors: Input_error where there is
+/// none, or it cannot be read.
 std::string read_bytes(const std::filesystem::path& path);
 /// The same of a file that the program writes for itself, to go on from: it may be replaced (keep_what_is_read()).
 std::string read_own_bytes(const std::filesystem::path& path);

@@ -29,6 +29,14 @@ bool Common_denominator::include(const Integer& denominator) {
   return bit_length(common_) <= largest_common_denominator_bits;
 }
 
+std::string Common_denominator::why_not(const Rational& coordinate, std::string_view instead) {
+  const std::string most = std::to_string(largest_common_denominator_bits);
+  if (bit_length(coordinate.get_num()) > bit_length(coordinate.get_den()) + largest_common_denominator_bits)
+    return "a coordinate beyond 2^" + most + "; scale the scene so that it is less";
+  if (include(coordinate.get_den())) return {};
+  return "common denominator of the coordinates needs more than " + most + " bits; " + std::string(instead);
+}
+
 namespace {
 
 /// Reads OFF line by line: [OFF], the counts V F [E], V lines of points, F lines of faces.
@@ -119,15 +127,12 @@ void Off_reader::read_point(std::size_t i) {
     const bool is_decimal = options_.decimals_too && token.find('/') == std::string_view::npos;
     const Number number = read_coordinate(text_, token, is_decimal ? Number_syntax::decimal : syntax_, options_);
     const auto* value = std::get_if<Rational>(&number);
-    const bool is_limited = value && syntax_ == Number_syntax::rational && !options_.any_denominator;
-    if (is_limited && bit_length(value->get_num()) > bit_length(value->get_den()) + largest_common_denominator_bits)
-      text_.fail(token, "a coordinate beyond 2^" + std::to_string(largest_common_denominator_bits) +
-                            "; scale the scene so that it is less");
-    if (is_limited && !denominator_.include(value->get_den()))
-      text_.fail(token, "common denominator of the coordinates needs more than " +
-                            std::to_string(largest_common_denominator_bits) +
-                            " bits; read the file with coordinates rounded to double (--coordinates double), or round "
-                            "them in the file");
+    if (value && syntax_ == Number_syntax::rational && !options_.any_denominator)
+      if (const std::string why = denominator_.why_not(
+              *value,
+              "read the file with coordinates rounded to double (--coordinates double), or round them in the file");
+          !why.empty())
+        text_.fail(token, why);
     push(soup_.coordinates, number);
   }
   // A normal, a colour, a texture coordinate. Plain OFF has none, but colours are often met there.

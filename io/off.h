@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <ostream>
+#include <string>
+#include <string_view>
 #include <unordered_set>
 
 namespace sightline {
@@ -23,6 +25,9 @@ class Common_denominator {
  public:
   /// Takes one more in; false once the multiple needs more bits than allowed.
   bool include(const Integer& denominator);
+  /// The same of a coordinate, which may not be larger than that either: why not, for a message, which ends with what
+  /// to do `instead` of a longer multiple; empty where it may be there.
+  std::string why_not(const Rational& coordinate, std::string_view instead);
 
  private:
   Integer common_ = 1;

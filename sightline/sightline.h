@@ -64,7 +64,7 @@ struct Facts {
   std::size_t concave, non_planar, with_holes, planes;        ///< supporting planes
   int bits;                                       ///< of the largest coordinate in steps of the scene's grid, from 0
   std::string arithmetic;                         ///< the narrowest exact one that fits
-  bool closed;                                    ///< whether the faces bound a solid
+  bool closed;                                    ///< whether the faces close up, as those of solids do; true of none
   std::optional<std::array<Exact_point, 2>> box;  ///< of the points of faces; none: there are none
 };
 

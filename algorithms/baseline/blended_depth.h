@@ -16,7 +16,7 @@ struct Blended_depth {
   std::vector<Layer> layers;
   float near = 0, far = 0;
   std::uint64_t triangles = 0;
-  std::uint64_t not_finite = 0;  ///< pieces left out, because floats do not hold them
+  std::uint64_t not_finite = 0;  ///< pieces left out, because floats do not hold them, the eye or the planes
 };
 
 /// Faces drawn in the scene's order, each over what is there where its stored depth is less than the least so far: what

@@ -52,7 +52,7 @@ struct Depth_buffer {
       depths;                    ///< of each pixel: what is seen, and its depth as it was stored (of a float its bits)
   std::uint64_t triangles = 0;   ///< rasterized, each in every image that it meets
   std::uint64_t clipped = 0;     ///< pieces cut or lost at the near plane, in each image
-  std::uint64_t not_finite = 0;  ///< pieces left out, because floats do not hold them
+  std::uint64_t not_finite = 0;  ///< pieces left out, because floats do not hold them, the eye or the planes
 
   std::size_t pixel(std::size_t side, std::uint32_t x, std::uint32_t y) const { return (side * size + y) * size + x; }
   std::uint32_t piece(std::size_t side, std::uint32_t x, std::uint32_t y) const { return pieces[pixel(side, x, y)]; }
@@ -72,7 +72,7 @@ Depth_buffer depth_buffer(const Scene& scene, const Exact_point& eye, const Dept
 struct Depth_image {
   Piece_image image;
   float near = 0, far = 0;
-  std::uint64_t not_finite = 0;  ///< pieces left out, because floats do not hold them
+  std::uint64_t not_finite = 0;  ///< pieces left out, because floats do not hold them, the eye or the planes
 };
 
 /// The same in one image; its size stands in the view, the options' own is not asked. Depths are along the direction

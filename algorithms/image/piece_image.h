@@ -10,9 +10,9 @@
 namespace sightline {
 
 struct Image_counters {
-  std::uint64_t edge_on = 0;                           ///< pieces in whose plane the eye is: not seen
-  std::uint64_t drawn = 0;                             ///< polygons of which some centre was looked at
-  std::uint64_t centres = 0;                           ///< polygons at pixel centres
+  std::uint64_t edge_on = 0;  ///< pieces not seen: the eye is in their plane, or numbers do not hold them
+  std::uint64_t drawn = 0;    ///< polygons of which some centre was looked at
+  std::uint64_t centres = 0;  ///< polygons at pixel centres
   std::uint64_t exact_sides = 0, exact_depths = 0;     ///< signs that doubles left open
   std::uint64_t spans = 0;                             ///< of rows, in which faces were compared: scan_line
   std::uint64_t windows = 0;                           ///< looked at: warnock

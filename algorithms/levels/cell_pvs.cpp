@@ -49,12 +49,13 @@ class Cell_pvs_search::Maker {
       : level_(level),
         options_(std::move(options)),
         occluders_(level.scene()),
-        ways_(level, occluders_, options_.outside),
+        ways_(level, occluders_, options_.outside, options_.search.out_of_time),
         count_(static_cast<Cell_id>(level.cells().size())),
         columns_(count_),
         is_done_(count_) {}
 
   Cell_pvs make(std::uint32_t shard, std::uint32_t shards) {
+    if (!ways_.is_whole()) ways_ = Ways(level_, occluders_, options_.outside, options_.search.out_of_time);
     // 1. Floods, lower cells first, in rounds: those of a round tell the later ones, and not each other, so that what
     // is searched is the same at any number of threads.
     std::vector<Cell_id> own;
@@ -160,6 +161,7 @@ class Cell_pvs_search::Maker {
   /// undecided.
   void flood(Cell_id cell) {
     Column& column = columns_[cell] = {};  // where it was given up, it begins anew
+    column.in_time = ways_.is_whole();
     Cell_pvs_counters& counters = column.counters;
     Flood flood{cell, std::vector<Known>(count_, Known::nothing), {}, counters};
     flood.see(cell);
@@ -198,6 +200,7 @@ class Cell_pvs_search::Maker {
       if (known == Known::is_undecided) column.undecided.push_back(other);
       counters.unreached += known == Known::nothing;
     }
+    if (!column.undecided.empty() && out_of_time()) column.in_time = false;  // the last search may have had too little
     counters.visible = column.visible.size();
     counters.undecided = column.undecided.size();
   }

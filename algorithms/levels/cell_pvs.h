@@ -55,8 +55,8 @@ struct Cell_pvs {
 };
 
 /// The question asked in parts: of pairs whose lower cell is `shard` modulo `shards`. Parts asked of one object tell
-/// each other what they found; parts asked of several find again what they need. Cells whose flood ran out of time are
-/// flooded anew when their part is asked again.
+/// each other what they found; parts asked of several find again what they need. Cells whose flood, or its last search,
+/// ran out of time are flooded anew when their part is asked again.
 class Cell_pvs_search {
  public:
   explicit Cell_pvs_search(Level_cells&&, Pvs_options = {}) = delete;

@@ -17,7 +17,7 @@ class Pvs_maker {
       : level_(level),
         options_(std::move(options)),
         occluders_(level.scene()),
-        ways_(level, occluders_, options_.outside) {
+        ways_(level, occluders_, options_.outside, options_.search.out_of_time) {
     find_starts();
   }
 
@@ -98,7 +98,7 @@ class Pvs_maker {
     std::vector<Cell_id> waiting = target.starts;
     for (const Cell_id cell : waiting) known[cell] = Known::is_visible;
     counters.within = waiting.size();
-    bool is_over = false;
+    bool is_over = !ways_.is_whole();
     for (std::size_t next = 0; next < waiting.size() && !is_over; ++next) {
       for (const std::size_t w : ways_.into(waiting[next])) {
         const Way& way = ways_[w];

@@ -65,7 +65,7 @@ class Pvs_maker;
 }
 
 /// The question asked in parts: of the faces whose id is `shard` modulo `shards`. What parts have in common is made
-/// once.
+/// once; where time runs out before, each part leaves undecided all but faces that look into a cell.
 class Pvs_search {
  public:
   explicit Pvs_search(Level_cells&&, Pvs_options = {}) = delete;

@@ -26,12 +26,13 @@ std::vector<Exact_point> looking_from(const Level_cells& level, const Cell_wall&
   return polygon;
 }
 
-Ways::Ways(const Level_cells& level, const Occluders& occluders, bool outside)
+Ways::Ways(const Level_cells& level, const Occluders& occluders, bool outside, const std::function<bool()>& out_of_time)
     : is_asked_(asked_cells(level, outside)),
       cells_asked_(is_asked_.size() - static_cast<std::size_t>(std::count(is_asked_.begin(), is_asked_.end(), 0))) {
   into_.resize(is_asked_.size());
   for (const Cell_wall& wall : level.walls()) {
     if (wall.behind == no_cell || is_asked_[wall.front] == 0 || is_asked_[wall.behind] == 0) continue;
+    if (is_whole_ = !out_of_time || !out_of_time(); !is_whole_) return;
     for (const std::vector<std::uint32_t>& part : wall.open)
       for (const Cell_id from : {wall.front, wall.behind})
         add(from, from == wall.front ? wall.behind : wall.front,

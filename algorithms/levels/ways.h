@@ -9,6 +9,7 @@
 #include <sightline/algorithms/weak_visibility/weak_source.h>
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace sightline::levels_detail {
@@ -39,10 +40,12 @@ std::vector<Exact_point> looking_from(const Level_cells& level, const Cell_wall&
 /// The cells that are asked about, and all ways between them.
 class Ways {
  public:
-  Ways(const Level_cells& level, const Occluders& occluders, bool outside);
+  /// Once out of time there are not all of them.
+  Ways(const Level_cells& level, const Occluders& occluders, bool outside, const std::function<bool()>& out_of_time);
 
   const Way& operator[](std::size_t way) const { return ways_[way]; }
   std::size_t count() const { return ways_.size(); }
+  bool is_whole() const { return is_whole_; }
   /// Ways that lead into a cell.
   const std::vector<std::size_t>& into(Cell_id cell) const { return into_[cell]; }
   /// The same open part the other way round.
@@ -57,6 +60,7 @@ class Ways {
   std::vector<std::vector<std::size_t>> into_;
   std::vector<char> is_asked_;
   std::size_t cells_asked_ = 0;
+  bool is_whole_ = true;
 };
 
 /// Whether a face is visible from a source that searches left undecided: by events, and then by longer searches, for as

@@ -249,7 +249,8 @@ void add_compare(Command program) {
       "Example: sightline compare level.bsp pvs --rays 1000,10000\n"
       "A folder of scenes, in shards, with one row a scene and method: sightline report FOLDER --questions see --shard "
       "0/8 --json part0.json; report --merge puts the parts together.\n"
-      "--budget is for each kernel or method, and anew for its sizes. Threads: 1 unless given. Exit code 1: one that "
+      "--budget is for each kernel or method, and anew for its sizes, and for the truth: what that leaves undecided is "
+      "not judged, exit code 4. Threads: 1 unless given. Exit code 1: one that "
       "claims to be exact was "
       "not.");
   command.set_action([a, kernels, command] {

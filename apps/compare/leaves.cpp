@@ -33,6 +33,16 @@ Rows by_table(const Quake_level& file) {
   return rows;
 }
 
+/// Which leaves see each other, and of which others that is undecided.
+std::array<Rows, 2> seen_and_open(const Level_cells& level, Cell_pvs pvs, const Quake_level& file) {
+  Rows open = rows_of_level(level, pvs, file);
+  for (std::vector<Cell_id>& others : pvs.undecided) others.clear();
+  Rows seen = rows_of_level(level, pvs, file);
+  for (std::size_t l = 0; l < open.size(); ++l)
+    for (std::size_t m = 0; m < open.size(); ++m) open[l][m] = open[l][m] && !seen[l][m];
+  return {std::move(seen), std::move(open)};
+}
+
 /// Corners of a leaf's cells in near coordinates, and points of their insides. In doubles.
 class Leaf_points {
  public:
@@ -117,13 +127,16 @@ Rows by_points(const Leaf_question& question, std::size_t segments, std::uint64_
   return rows;
 }
 
-Json judged(const Quake_level& file, const Rows& exact, const Rows& said, double seconds, const Peak_memory& memory) {
+/// `open`: pairs that are undecided, and not judged.
+Json judged(const Quake_level& file, const Rows& exact, const Rows& open, const Rows& said, double seconds,
+            const Peak_memory& memory) {
   std::size_t visible = 0, hidden_wrongly = 0, visible_wrongly = 0, worst = 0;
   for (std::size_t l = 0; l < exact.size(); ++l) {
     std::size_t missing = 0;
     for (std::size_t m = 0; m < exact.size(); ++m) {
       if (l == m || !file.is_open(l + 1) || !file.is_open(m + 1)) continue;
       visible += said[l][m];
+      if (open[l][m]) continue;
       missing += exact[l][m] && !said[l][m];
       visible_wrongly += said[l][m] && !exact[l][m];
     }
@@ -196,10 +209,14 @@ Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_l
   options.search.seed = common.seed;
   Leaves_compared compared;
   const Stopwatch watch;
-  Cell_pvs_search search(level, options);
+  Time_limit limit(common.budget);
+  Pvs_options in_time = options;
+  in_time.search.out_of_time = [&] { return limit.is_over(); };
+  Cell_pvs_search search(level, in_time);
   const Cell_pvs pvs = search.ask(0, 1);
   compared.seconds = watch.seconds();
-  const Rows exact = rows_of_level(level, pvs, file);
+  const std::array<Rows, 2> rows = seen_and_open(level, pvs, file);
+  const Rows &exact = rows[0], &undecided = rows[1];
   Leaf_question question{file, level, occluders, pvs, exact, {}};
   question.cells.resize(file.leaves.size());
   for (Cell_id c = 0; c < level.cells().size(); ++c)
@@ -208,11 +225,11 @@ Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_l
   // 1. Who says what.
   Trial trial;
   const auto add = [&](Json name, std::function<Rows()> method) {
-    trial.contestants.push_back({std::move(name), [&file, &exact, method = std::move(method)] {
+    trial.contestants.push_back({std::move(name), [&, method = std::move(method)] {
                                    const Peak_memory memory;
                                    const Stopwatch own;
                                    const Rows said = method();
-                                   return judged(file, exact, said, own.seconds(), memory);
+                                   return judged(file, exact, undecided, said, own.seconds(), memory);
                                  }});
   };
   add({{"kernel", "exact"}, {"method", "leaves, flooding"}},
@@ -227,6 +244,7 @@ Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_l
   compared.undecided = pvs.counters.undecided;
 
   // 2. What refutes the table.
+  limit = Time_limit(common.budget);
   const Rows table = by_table(file);
   std::vector<harness::Flat_face> faces;
   for (std::size_t l = 0; l < exact.size(); ++l)

@@ -47,6 +47,8 @@ Json judged(const Cells_question& question, const Sets& said, double seconds, co
     std::set_difference(truth.begin(), truth.end(), said[c].begin(), said[c].end(), std::back_inserter(missing));
     std::set_difference(said[c].begin(), said[c].end(), truth.begin(), truth.end(), std::back_inserter(more));
     visible += said[c].size();
+    const std::vector<Face_id>& open = question.exact.undecided[c];  // not judged
+    std::erase_if(more, [&](Face_id face) { return std::binary_search(open.begin(), open.end(), face); });
     for (const Face_id face : missing) hidden_wrongly.push_back({c, face});
     for (const Face_id face : more) visible_wrongly.push_back({c, face});
     worst = std::max(worst, missing.size());
@@ -279,6 +281,7 @@ std::optional<Quake_level> level_with_table(const std::string& scene) {
 }
 
 struct Level_trial : Trial {
+  Time_limit limit;                 // for the truth
   std::optional<Quake_level> file;  // cells are within its leaves
   Space_tree tree;                  // that of the file
   Level_cells level;
@@ -290,17 +293,18 @@ struct Level_trial : Trial {
   std::vector<Cell_id> cells;
   Cells_question question;
 
-  /// `limited`: the budget is for the truth too, which leaves pairs open then, and nothing is measured.
-  Level_trial(const Compare_arguments& arguments, const Polygon_soup& soup, bool limited)
-      : file(level_with_table(arguments.common.scene)),
+  /// The budget is for the truth too, which leaves pairs open then. `samples`: there are pairs to measure.
+  Level_trial(const Compare_arguments& arguments, const Polygon_soup& soup, bool samples)
+      : limit(arguments.common.budget),
+        file(level_with_table(arguments.common.scene)),
         tree(file ? space_tree(*file, arguments.common.scene) : Space_tree()),
         level(soup, cell_options(arguments.common, tree)),
         occluders(level.scene()),
         options(pvs_options(arguments.common)),
-        exact(potentially_visible(level, limited ? within(arguments.common.budget) : options)),
+        exact(potentially_visible(level, in_time())),
         seconds(watch.seconds()),
         cells(asked_cells(exact)),
-        question{level, occluders, exact, cells, arguments.says, !limited, arguments.common.seed} {
+        question{level, occluders, exact, cells, arguments.says, samples, arguments.common.seed} {
     const Common& common = arguments.common;
     add({{"kernel", "exact"}, {"method", "flooding"}}, [this] { return potentially_visible(level, options).visible; });
     for (const std::size_t rays : arguments.rays)
@@ -322,9 +326,9 @@ struct Level_trial : Trial {
                              return judged(question, sets, own.seconds(), memory);
                            }});
   }
-  Pvs_options within(double budget) const {
+  Pvs_options in_time() const {
     Pvs_options limited = options;
-    limited.search.out_of_time = Time_limit(budget).end();
+    limited.search.out_of_time = limit.end();
     return limited;
   }
   /// On one thread, since processes are made after it.
@@ -333,6 +337,7 @@ struct Level_trial : Trial {
     options.tree = tree;
     options.seed = common.seed;
     options.threads = 1;
+    options.progress = common.within_budget();
     return options;
   }
   static Pvs_options pvs_options(const Common& common) {
@@ -346,7 +351,7 @@ struct Level_trial : Trial {
 }  // namespace
 
 std::unique_ptr<Trial> pvs_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {
-  auto trial = std::make_unique<Level_trial>(arguments, soup, arguments.common.budget > 0);
+  auto trial = std::make_unique<Level_trial>(arguments, soup, false);
   if (trial->exact.counters.undecided > 0) throw Out_of_budget("undecided: the truth takes longer than the budget");
   return trial;
 }
@@ -354,7 +359,7 @@ std::unique_ptr<Trial> pvs_trial(const Compare_arguments& arguments, const Polyg
 Exit compare_cells(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
   const Polygon_soup soup = common.read();
-  const Level_trial trial(arguments, soup, false);
+  const Level_trial trial(arguments, soup, true);
   const auto& [level, exact, question, file] = std::tie(trial.level, trial.exact, trial.question, trial.file);
 
   // 1. What methods say, each in a process of its own.

@@ -86,7 +86,7 @@ struct Weak_trial : Trial {
       : arguments(all),
         scene(scene_of(soup)),
         occluders(scene),
-        sources(sources_of(arguments.sources, arguments.common, soup, occluders)),
+        sources(sources_of(arguments.sources, arguments.common, soup, occluders, arguments.common.within_budget())),
         prepare_seconds(watch.seconds()),
         task(arguments.weak) {
     // 1. What all are compared with: lines, then events; on one thread, since processes are made after it.

@@ -8,6 +8,7 @@
 
 #include <sightline/io/file.h>
 #include <sightline/io/read.h>
+#include <sightline/io/visibility_table.h>
 
 #include <charconv>
 #include <filesystem>
@@ -124,7 +125,11 @@ std::vector<Case_group> groups_of_families(const Case_choice& choice, const Case
 }  // namespace
 
 std::string identity(const Case_group& group) {
-  return group.family + ' ' + (group.file.empty() ? group.distance : content_hash(group.file));
+  if (group.file.empty()) return group.family + ' ' + group.distance;
+  std::string of = group.family + ' ' + content_hash(group.file);
+  if (format_of_ending(group.file) == Format::gltf)  // its corners may be in other files
+    of += fmt::format(" {:016x}", fingerprint(read_scene(group.file)));
+  return of;
 }
 
 std::vector<Case_group> groups_of(const Case_choice& choice, const Case_options& options) {

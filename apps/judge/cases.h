@@ -36,7 +36,8 @@ struct Case_group {
   std::string file;  ///< of the scene; none: a family's
 };
 
-/// What tells a group from others of the same number, for --resume: its name, distance, and the content of its file.
+/// What tells a group from others of the same number, for --resume: its name, distance, and the content of its file,
+/// and of files that this names.
 std::string identity(const Case_group& group);
 
 /// Errors: Usage_error naming the option, Input_error naming the file or the folder.

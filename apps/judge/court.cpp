@@ -104,11 +104,15 @@ std::string Court::scene_text(const Judge_case& asked) const {
 }
 static std::string query_text(const Judge_case& asked) { return judge::to_json(asked.query).dump() + "\n"; }
 
-/// The files of a case, without an answer.
+/// The files of a case, without an answer. Where a program left what cannot be removed in the place of one, as a folder
+/// whose content is somebody else's, that stays, and they have other names.
 void Court::write_case(const Judge_case& asked) const {
+  std::error_code stays;
+  for (const fs::path& file : {scene(), query(), answer()})
+    if (!stays) fs::remove_all(file, stays);
+  if (stays) ++blocked_;
   write_temporary(scene(), scene_text(asked));
   write_temporary(query(), query_text(asked));
-  fs::remove_all(answer());
 }
 
 std::optional<std::string> Court::said() const {

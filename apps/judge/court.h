@@ -60,9 +60,12 @@ class Court {
   const std::vector<std::string>& words() const { return words_; }  ///< of the program's command
 
  private:
-  std::filesystem::path scene() const { return folder_ / ("scene." + options_.format); }
-  std::filesystem::path query() const { return folder_ / "query.json"; }
-  std::filesystem::path answer() const { return folder_ / "answer"; }
+  std::filesystem::path scene() const { return place("scene." + options_.format); }
+  std::filesystem::path query() const { return place("query.json"); }
+  std::filesystem::path answer() const { return place("answer"); }
+  std::filesystem::path place(const std::string& name) const {
+    return folder_ / (blocked_ == 0 ? name : fmt::format("{}-{}", blocked_, name));
+  }
   std::string scene_text(const Judge_case& asked) const;
   void write_case(const Judge_case& asked) const;
   void run(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const;
@@ -71,6 +74,7 @@ class Court {
   Court_options options_;
   std::vector<std::string> words_;
   Temporary_folder folder_;
+  mutable std::size_t blocked_ = 0;  // cases that left something which cannot be removed
 };
 
 }  // namespace sightline::app

@@ -34,6 +34,14 @@ void check_kept(const Judge_arguments& arguments) {
   check_files(inputs, outputs);
 }
 
+/// Errors: std::runtime_error where there is none, and none can be made.
+void make_kept_folder(const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw std::runtime_error(folder + ": cannot be made (" + error.message() + "); name another folder");
+}
+
 /// What all cases are asked alike, by options' names. Programs are known by their files, too.
 Json asked_json(const Judge_arguments& a, const Court& court, const Shard& own) {
   const Case_choice& choice = a.choice;
@@ -264,6 +272,7 @@ Exit run(Judge_arguments arguments) {
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
   if (!arguments.choice.ask.empty()) arguments.two_sided = groups.at(0).make(arguments.seed).query.two_sided;
   for (const std::string& output : {arguments.json, arguments.html}) check_replaceable(output);  // before the work
+  make_kept_folder(arguments.keep);
   const Court court(arguments.court_options());
   const Shard own = shard_of(arguments.shard);
   std::optional<Kept_cases> kept;

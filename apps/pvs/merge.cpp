@@ -26,14 +26,20 @@ Exit run_merge(const Merge_arguments& arguments) {
   try {
     const Visibility_table table = merged(parts, arguments.parts);
     write_table(arguments.out, table);
-    if (arguments.out != "-")
-      row("merged", fmt::format("{} parts: {} cells, {} faces, {} pairs visible, {} undecided", parts.size(),
-                                table.rows.size(), table.faces.size(), count_of(table, &Visibility_table::Row::visible),
-                                count_of(table, &Visibility_table::Row::undecided)));
+    const std::size_t undecided = count_of(table, &Visibility_table::Row::undecided),
+                      cells_undecided = count_of(table, &Visibility_table::Row::cells_undecided) / 2;
+    if (arguments.out != "-") {
+      row("merged",
+          fmt::format("{} parts: {} cells, {} faces, {} pairs visible, {} undecided", parts.size(), table.rows.size(),
+                      table.faces.size(), count_of(table, &Visibility_table::Row::visible), undecided));
+      if (table.has_cells())
+        row("", fmt::format("of two cells: {} see each other, {} undecided",
+                            count_of(table, &Visibility_table::Row::cells) / 2, cells_undecided));
+    }
+    return undecided + cells_undecided > 0 ? Exit::undecided : Exit::done;
   } catch (const Merge_error& error) {
     throw std::runtime_error(std::string("merge: ") + error.what());
   }
-  return Exit::done;
 }
 
 }  // namespace
@@ -45,7 +51,7 @@ void add_merge(Command program) {
   command.add_option("--out", a->out, "write the table: .json, .csv, or else binary").required().writes_file();
   command.footer(
       "Refuses parts of other scenes or options, a face twice, and a face in none; then it says which shards "
-      "to run again.");
+      "to run again. Exit code 4: pairs are undecided, as `pvs` says.");
   command.set_action([a] { return run_merge(*a); });
 }
 

@@ -208,9 +208,12 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   Division division = file ? file->division() : arguments.division.division(common, soup);
   const Stopwatch watch;
   const Time_limit limit(common.budget);
+  const Report in_time = common.within_budget();
   const Level_cells level = cells_of(common, soup, division);
   if (file) division.known_regions = file->checked_regions(level);
   file.reset();
+  if (division.kind == Division::Kind::regions && ranks.is_first())  // while there is no table yet to lose
+    division.known_regions = division.groups(level, in_time);
   const double cells_seconds = watch.seconds();
   check_shown(arguments, level);
 

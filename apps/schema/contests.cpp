@@ -29,9 +29,9 @@ Json order_answer() {
                               {"pairs?", count},
                               {"pairs_wrong?", pairs},
                               {"pairs_wrong_beyond_rounding?", pairs},
-                              {"area_lost?", number},
-                              {"area_overlapping?", number},
-                              {"area_outside?", number},
+                              {"area_lost?", a_double()},
+                              {"area_overlapping?", a_double()},
+                              {"area_outside?", a_double()},
                               {"tiles_exactly?", type("boolean")}});
   return answer_to({"order", "bsp"}, {{"rows", rows_of({}, {{"build_seconds", number},
                                                             {"order_seconds", number},
@@ -55,8 +55,8 @@ Json see_answer() {
                               {"not_finite", count}});
   const Json rows = rows_of({{"size?", count}, {"bits?", count}}, {{"visible?", count},
                                                                    {"parts?", count},
-                                                                   {"near?", number},
-                                                                   {"far?", number},
+                                                                   {"near?", a_double()},
+                                                                   {"far?", a_double()},
                                                                    {"triangles?", count},
                                                                    {"clipped?", count},
                                                                    {"errors", errors}});
@@ -158,7 +158,7 @@ Members judge_members() {
       {"faces", object({{"judged", count}, {"wrong_visible", count}, {"wrong_hidden", count}, {"abstained", count}})},
       {"seconds", object({{"p50", seconds}, {"p95", seconds}, {"max", seconds}})},
       {"bytes", count},
-      {"errors?", object({{"area", number}, {"volume", number}})}};
+      {"errors?", object({{"area", a_double()}, {"volume", a_double()}})}};
   const Json row = object(with(sums, {{"family", text}}));
   const Json line = object({{"face", face},
                             {"from", named("point")},

@@ -222,7 +222,7 @@ Json boolean_result() {
                {"maximal_faces", count},
                {"points", count},
                {"volume", named("exact")},
-               {"area", tuple_of(type("number"), 2)},
+               {"area", tuple_of(a_double(), 2)},
                {"not_manifold", list_of(object({{"from", named("point")}, {"to", named("point")}, {"faces", count}}))},
                {"provenance", list_of(tuple_of(count, 2))},
                {"turned", list_of(count)},

@@ -35,7 +35,7 @@ Json definitions() {
                    {"grid_bits", count},
                    {"arithmetic", type("string")}})},
           {"rounding", object({{"moved", count},
-                               {"farthest", type("number")},
+                               {"farthest", a_double()},
                                {"not_planar", list_of(face)},
                                {"turned", list_of(face)},
                                {"collapsed", list_of(face)},

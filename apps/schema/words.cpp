@@ -25,6 +25,12 @@ Json object(const Members& members) {
 Json a_count() { return {{"type", "integer"}, {"minimum", 0}}; }
 Json a_face() { return {{"type", "integer"}, {"minimum", 0}, {"description", "the place of a face, from 0"}}; }
 
+Json a_double() {
+  Json number = any_of({type("number"), type("null")});
+  number["description"] = "null: beyond doubles, or floats";
+  return number;
+}
+
 Members with(Members members, const Members& more) {
   members.insert(members.end(), more.begin(), more.end());
   return members;

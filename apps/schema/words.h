@@ -24,6 +24,8 @@ Json object(const Members& members);
 
 Json a_count();
 Json a_face();
+/// A number that doubles may not hold: null then.
+Json a_double();
 
 /// All of the one, then all of the other.
 Members with(Members members, const Members& more);

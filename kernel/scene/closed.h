@@ -1,5 +1,5 @@
 #pragma once
-// Whether the faces of a scene bound a solid.
+// Whether the faces of a scene close up, as those of solids do.
 
 #include <sightline/kernel/scene/scene.h>
 

@@ -4,6 +4,7 @@
 
 #include <sightline/harness/generate/transform.h>
 #include <sightline/io/exact_text.h>
+#include <sightline/io/off.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 
@@ -45,10 +46,17 @@ bool add_points(Polygon_soup& soup, const py::array& points) {
   return true;
 }
 
-void add_objects(Polygon_soup& soup, const py::array& points) {
+/// Numbers of any kind; unless `any_denominator`, within what a file may have of them.
+void add_objects(Polygon_soup& soup, const py::array& points, bool any_denominator) {
+  Common_denominator common;
   const auto at = py::reinterpret_borrow<py::array_t<PyObject*>>(points).unchecked<2>();
   for (py::ssize_t i = 0; i < at.shape(0); ++i)
-    for (py::ssize_t k = 0; k < 3; ++k) soup.coordinates.push(rational_of(at(i, k), place("V", i, k)));
+    for (py::ssize_t k = 0; k < 3; ++k) {
+      const Rational coordinate = rational_of(at(i, k), place("V", i, k));
+      const std::string why = any_denominator ? "" : common.why_not(coordinate, "give floats, or round them");
+      if (!why.empty()) throw py::value_error(place("V", i, k) + ": " + why);
+      soup.coordinates.push(coordinate);
+    }
 }
 
 // ---- Faces
@@ -110,7 +118,7 @@ using Starts = py::array_t<std::int64_t, py::array::c_style>;
 /// A scene of arrays, each number as it is. Pre: V is (n, 3), of doubles, floats, 64-bit or 32-bit integers or objects;
 /// F of integers: (m, k), or one row, whose loops and faces begin where `loops` and `faces` say.
 Model model_of(const py::array& points, const py::array& corners, const Starts& loop_starts, const Starts& face_starts,
-               const Question& question) {
+               const Question& question, bool any_denominator) {
   const std::span loops(loop_starts.data(), static_cast<std::size_t>(loop_starts.size()));
   const std::span faces(face_starts.data(), static_cast<std::size_t>(face_starts.size()));
   Polygon_soup soup;
@@ -118,7 +126,7 @@ Model model_of(const py::array& points, const py::array& corners, const Starts& 
   soup.coordinates.reserve(3 * static_cast<std::size_t>(points.shape(0)));
   if (!add_points<double>(soup, points) && !add_points<float>(soup, points) &&
       !add_points<std::int64_t>(soup, points) && !add_points<std::int32_t>(soup, points))
-    add_objects(soup, points);
+    add_objects(soup, points, any_denominator);
   if (corners.ndim() == 1) {
     check_starts(loops, static_cast<std::size_t>(corners.shape(0)), "offsets", "corners", 0);
     check_starts(faces, loops.size() - 1, "face_offsets", "loops", 1);
@@ -315,7 +323,7 @@ void add_scene(py::module_& module) {
 
   py::class_<Model>(module, "Model")
       .def_static("of_arrays", &model_of, py::arg("points"), py::arg("corners"), py::arg("loops"), py::arg("faces"),
-                  py::arg("question"))
+                  py::arg("question"), py::arg("any_denominator") = false)
       .def_static("read", &read, py::arg("file"), py::arg("round"), py::arg("flip"), py::arg("question"))
       .def("write", &write, py::arg("file"))
       .def_property_readonly("file", [](const Model& model) { return text_of_bytes(model.soup().file); })

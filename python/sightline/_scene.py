@@ -34,7 +34,8 @@ class Scene:
     """A scene of polygons, made ready once for all questions, with exact coordinates. It never changes.
 
     V: points, (n, 3): float64, float32, integers, or objects (Fraction, int, Decimal, text "0.1" or "p/q"). Each number
-       is taken as it is: nothing is rounded.
+       is taken as it is: nothing is rounded. Objects have a common denominator of 8192 bits at most, and are at most
+       2^8192, as in a .qoff.
     F: faces, corners counted from 0: (m, 3), (m, 4), lists of corners (or of loops: further loops are holes), or flat,
        with offsets, (loops + 1,), where its loops begin and the last ends, and, where faces have holes, face_offsets,
        (faces + 1,), where faces begin among loops. Fronts are where corners run counterclockwise.
@@ -119,7 +120,7 @@ class Scene:
 
         Counts of points_read and of different points; of faces_read, faces that are kept, convex parts, concave,
         non_planar and with_holes faces, and supporting planes; bits of the largest coordinate on the scene's integer
-        grid; arithmetic; closed: whether the faces bound a solid; box: two points, or None; left_out.
+        grid; arithmetic; closed: whether the faces close up, as those of solids do; box: two points, or None; left_out.
         """
         return {**self._model.facts(), "left_out": self.left_out}
 
@@ -487,7 +488,9 @@ class Scene:
 
 
 def _of_loops(points: NDArray[Any], corners: Any, loops: Any, faces: Any) -> Scene:
-    return Scene(points, corners, offsets=loops, face_offsets=faces)
+    """Of pickle: what set operations make may have any denominators."""
+    V, F = _arrays.points(points), _arrays.faces(corners, loops, faces)
+    return Scene._of(_sightline.Model.of_arrays(V, *F, _question(0, None, 0), True))
 
 
 def read(path: Path, *, coordinates: str = "exact", flip: bool = False) -> Scene:

@@ -33,7 +33,12 @@ class Parts:
 class Model:
     @staticmethod
     def of_arrays(
-        points: NDArray[Any], corners: NDArray[Any], loops: Ids, faces: Ids, question: Question
+        points: NDArray[Any],
+        corners: NDArray[Any],
+        loops: Ids,
+        faces: Ids,
+        question: Question,
+        any_denominator: bool = False,
     ) -> Model: ...
     @staticmethod
     def read(file: bytes, round: bool, flip: bool, question: Question) -> Model: ...

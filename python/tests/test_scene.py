@@ -97,6 +97,14 @@ def test_polygons_and_holes():
         ([[None, 0, 0]], [[0, 0, 0]], TypeError, r"V\[0, 0\] is a NoneType"),
         ([["a", 0, 0]], [[0, 0, 0]], ValueError, "a"),
         ([[types.SimpleNamespace(numerator=1, denominator=0), 0, 0]], [[0, 0, 0]], ValueError, "the denominator 0"),
+        (
+            [[Fraction(1, 3**2000), 0, Fraction(1, 5**3000)]],
+            [[0, 0, 0]],
+            ValueError,
+            r"V\[0, 2\]: common denominator of the coordinates needs more than 8192 bits",
+        ),
+        ([[0, Fraction(1, 10**100000), 0]], [[0, 0, 0]], ValueError, r"V\[0, 1\]: common denominator"),
+        ([[10**100000, 0, 0]], [[0, 0, 0]], ValueError, r"V\[0, 0\]: a coordinate beyond 2\^8192"),
         ([[0, float("nan"), 0]], [[0, 0, 0]], ValueError, r"V\[0, 1\] is nan"),
         (np.array([[0, np.inf, 0]]), [[0, 0, 0]], ValueError, r"V\[0, 1\] is inf"),
         (np.array([[0, 0, np.nan]], np.float32), [[0, 0, 0]], ValueError, r"V\[0, 2\] is nan"),
@@ -249,6 +257,18 @@ def test_scenes_are_pickled_and_copied_exactly():
             ]
             assert again.areas.tolist() == scene.areas.tolist()
     assert pickle.loads(pickle.dumps(rounded)).points().dtype == float
+
+
+def test_results_of_set_operations_are_pickled_whatever_their_denominators_are():
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], object)
+    F = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]
+    scale = np.array([1 - Fraction(1, 5**1100), 1 + Fraction(1, 7**900), 1 - Fraction(1, 11**700)])
+    other = sightline.Scene(corners * scale - Fraction(1, 9), F)
+    union = sightline.boolean("union", sightline.Scene(corners, F), other).scene
+    again = pickle.loads(pickle.dumps(union))
+    assert again.points(exact=True).tolist() == union.points(exact=True).tolist()
+    with pytest.raises(ValueError, match="common denominator"):
+        sightline.Scene(union.points(exact=True), union.faces())
 
 
 def test_what_is_left_out_is_said():

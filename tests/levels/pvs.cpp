@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <stdexcept>
 
 namespace sightline {
@@ -155,6 +156,27 @@ TEST(Cell_pvs, out_of_time_is_undecided) {
   EXPECT_EQ(again.visible, whole.visible);
 }
 
+TEST(Cell_pvs, is_asked_again_wherever_time_ran_out) {
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
+  const Cell_pvs whole = mutually_visible_cells(level);
+  Pvs_options options;
+  options.threads = 1;
+  constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
+  std::size_t left = never;
+  options.search.out_of_time = [&] { return left == 0 || --left == 0; };
+  mutually_visible_cells(level, options);
+  const std::size_t all = never - left;
+  for (std::size_t after = 2 * all / 3; after <= all; ++after) {  // late: in some cell's last search
+    left = after;
+    Cell_pvs_search search(level, options);
+    search.ask(0, 1);
+    left = never;
+    const Cell_pvs again = search.ask(0, 1);
+    ASSERT_EQ(again.counters.undecided, 0u) << "time ran out when it was asked for the " << after << "th time";
+    ASSERT_EQ(again.visible, whole.visible);
+  }
+}
+
 TEST(Pvs, of_rooms_leaves_out_what_has_a_way_out) {
   const Level_cells level(corpus_scene("general/two_rooms.map"));
   const Pvs rooms = potentially_visible(level);
@@ -186,13 +208,29 @@ TEST(Pvs, out_of_time_is_undecided) {
     return true;
   };
   const Pvs pvs = potentially_visible(level, options);
-  EXPECT_LE(asked, pvs.counters.faces) << "it goes on although time is over";
+  EXPECT_EQ(asked, 1u) << "it goes on although time is over";
   const Pvs whole = potentially_visible(level);
   EXPECT_GT(pvs.counters.undecided, 0u);
   for (Cell_id c = 0; c < level.cells().size(); ++c)
     for (const Face_id face : whole.visible[c])
       EXPECT_TRUE(std::binary_search(pvs.visible[c].begin(), pvs.visible[c].end(), face) ||
                   std::binary_search(pvs.undecided[c].begin(), pvs.undecided[c].end(), face));
+}
+
+TEST(Pvs, ways_that_there_was_no_time_for_hide_nothing) {
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
+  const Pvs whole = potentially_visible(level);
+  Pvs_options options;
+  for (const std::size_t last : {1u, 2u, 5u}) {
+    std::atomic<std::size_t> asked = 0;
+    options.search.out_of_time = [&] { return ++asked == last; };  // a clock that goes back: searches have time
+    const Pvs pvs = potentially_visible(level, options);
+    EXPECT_EQ(pvs.counters.searched, 0u);
+    for (Cell_id c = 0; c < level.cells().size(); ++c)
+      for (const Face_id face : whole.visible[c])
+        EXPECT_TRUE(std::binary_search(pvs.visible[c].begin(), pvs.visible[c].end(), face) ||
+                    std::binary_search(pvs.undecided[c].begin(), pvs.undecided[c].end(), face));
+  }
 }
 
 /// Two squares that see each other past a wall, and no time to find that.

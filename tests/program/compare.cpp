@@ -346,6 +346,37 @@ TEST_F(Budget, that_runs_out_in_pvs_leaves_the_rest_undecided_at_once) {
   }
 }
 
+TEST_F(Budget, that_runs_out_while_regions_are_made_is_exit_4_before_there_is_a_table) {
+  const std::string soup = path("soup.off").string();  // its cells take a tenth of a second, its regions 100 times that
+  ASSERT_EQ(run({"generate", "soup", "--size", "300", "--out", soup}).code, done);
+  const Outcome r = run({"pvs", soup, "--coarse", "1", "--out", path("table.pvs").string(), "--budget", "0.5"});
+  EXPECT_EQ(r.code, undecided) << r;
+  EXPECT_TRUE(r.one_line_of_error()) << r;
+  EXPECT_FALSE(fs::exists(path("table.pvs")));
+}
+
+TEST_F(Budget, of_compare_is_for_the_truth_and_what_that_leaves_open_is_not_judged) {
+  const std::string house = path("house.off").string(), ball = path("ball.off").string();
+  ASSERT_EQ(run({"generate", "rooms", "--size", "2", "--out", house}).code, done);
+  ASSERT_EQ(run({"generate", "convex_sphere", "--size", "4000", "--out", ball}).code, done);
+  Outcome r;
+  for (double budget = 0.1; r.out.empty() && budget < 30; budget *= 1.5) {  // there may be no time for the cells
+    r = run({"compare", house, "pvs", "--rays", "10", "--budget", std::to_string(budget), "--json", "-"});
+    ASSERT_EQ(r.code, undecided) << r;
+  }
+  const Json result = r.json()["result"];
+  EXPECT_GT(result["undecided"], 0);
+  ASSERT_EQ(result["rows"][1]["method"], "rays");
+  if (result["rows"][1]["status"] == "done") {
+    EXPECT_EQ(result["rows"][1]["errors"]["wrongly_visible"], 0);
+  }
+  // A volume that takes minutes to be made a source.
+  const Outcome weak =
+      run({"compare", house, "weak", "--from-volume", ball, "--rays", "10", "--budget", "0.1"}, {.seconds = 20});
+  EXPECT_EQ(weak.code, undecided) << weak;
+  EXPECT_TRUE(weak.one_line_of_error()) << weak;
+}
+
 TEST_F(Budget, that_runs_out_while_sizes_are_measured_leaves_the_rest_unmeasured) {
   if (sanitized) GTEST_SKIP() << "it is about seconds; other tests measure sizes under sanitizers";
   const std::string house = path("house.off").string();

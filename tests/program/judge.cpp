@@ -273,6 +273,59 @@ TEST_F(Judge, resumed_asks_again_about_a_scene_that_changed) {
             usage);
 }
 
+TEST_F(Judge, resumed_asks_again_about_a_scene_whose_buffer_changed) {
+  const auto buffer = [&](float last) {
+    const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, last, 0};
+    file("t.bin", {reinterpret_cast<const char*>(corners.data()), sizeof corners});
+  };
+  const std::string scene = file("t.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+      "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "t.bin", "byteLength": 36}]})");
+  const std::vector<std::string> words{"judge",
+                                       "--program",
+                                       shell("echo abstained all > $3"),
+                                       "--query",
+                                       "see",
+                                       "--contract",
+                                       "exact",
+                                       "--scenes",
+                                       scene,
+                                       "--cases",
+                                       "3",
+                                       "--resume",
+                                       "--json",
+                                       path("j.json").string()};
+  buffer(1);
+  ASSERT_EQ(run(words).code, done);
+  EXPECT_NE(run(words).out.find("3 of 3 cases were there"), std::string::npos);
+  buffer(2);
+  EXPECT_NE(run(words).out.find("0 of 3 cases were there"), std::string::npos);
+}
+
+TEST_F(Judge, goes_on_where_a_program_leaves_what_is_in_the_way) {
+  const std::vector<std::string> options{"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "3"};
+  const auto invalid = [&](const std::string& script) {
+    return judge(shell(script), options, disagreement)["result"]["total"]["cases"]["invalid"];
+  };
+  EXPECT_EQ(invalid("rm $1 $2; mkdir $1 $2; touch $1/x"), 3);
+  // So deep that there are not enough descriptors to remove it.
+  const std::string log = path("log").string();
+  launcher_ = {"/bin/sh", "-c", "ulimit -n 64; export TMPDIR=\"$0\"; exec \"$@\"", path("").string()};
+  EXPECT_EQ(invalid("mkdir -p $3/$(seq -s / 100); basename $3 >> " + log), 3);
+  EXPECT_EQ(read_file(log), "answer\n1-answer\n2-answer\n");
+}
+
+TEST_F(Judge, that_cannot_make_the_folder_to_keep_says_so_before_it_asks) {
+  const std::string log = path("log").string(), keep = tower() + "/kept";
+  const Outcome r = run({"judge", "--program", shell("echo x >> " + log), "--query", "see", "--contract", "exact",
+                         "--scenes", tower(), "--cases", "1", "--keep", keep});
+  EXPECT_EQ(r.code, bad_input) << r;
+  EXPECT_TRUE(r.one_line_of_error()) << r;
+  EXPECT_NE(r.err.find(keep + ": cannot be made ("), std::string::npos) << r;
+  EXPECT_FALSE(fs::exists(log));
+}
+
 TEST_F(Judge, grades_orders_of_a_stack) {
   // `stacked`: unit squares one above the other; some order of their numbers is right from every eye.
   const std::vector<std::string> options{"--query", "order",  "--contract", "exact",  "--families",

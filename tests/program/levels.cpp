@@ -51,6 +51,32 @@ TEST_F(Levels, tables_that_announce_many_faces_are_merged_in_little_memory) {
       << r;
 }
 
+/// Tables by hand: of a cell and two faces in two parts, the one undecided; of two cells, undecided of each other.
+TEST_F(Levels, merged_parts_with_undecided_pairs_end_as_undecided) {
+  const auto table = [](char kind, const std::vector<std::string>& parts) {
+    std::string bytes = std::string("sightline pvs ") + kind + "\n" + std::string(4, '\0');
+    for (const std::string& part : parts) bytes += part;
+    return bytes;
+  };
+  const std::string one("\1\0\0\0", 4), two("\2\0\0\0", 4), none("\0\1", 2);
+  const std::string open = file("0.pvs", table('1', {one, two, "\1", "\1", none, "\1"}));
+  const std::string rest = file("1.pvs", table('1', {one, two, "\1", "\2", "\2", none}));
+  const Outcome faces = run({"merge", open, rest, "--out", out("all.pvs")});
+  EXPECT_EQ(faces.code, undecided) << faces;
+  EXPECT_NE(faces.out.find("1 pairs visible, 1 undecided"), std::string::npos) << faces;
+  EXPECT_TRUE(std::filesystem::exists(path("all.pvs")));
+  const std::string hidden = file("2.pvs", table('1', {one, two, "\1", "\1", none, none}));
+  EXPECT_EQ(run({"merge", hidden, rest, "--out", out("all.pvs")}).code, done);
+
+  const auto of_cells = [&](const std::string& undecided_cells) {
+    return table('2', {two, one, "\3", "\1", "\3", "\1", none, none, undecided_cells, "\1", none, none, none});
+  };
+  const Outcome cells = run({"merge", file("3.pvs", of_cells("\2")), "--out", out("all.pvs")});
+  EXPECT_EQ(cells.code, undecided) << cells;
+  EXPECT_NE(cells.out.find("0 see each other, 1 undecided"), std::string::npos) << cells;
+  EXPECT_EQ(run({"merge", file("4.pvs", of_cells(none)), "--out", out("all.pvs")}).code, done);
+}
+
 TEST_F(Levels, cells_are_counted_and_written) {
   const Outcome r = run({"cells", rooms, "--seal", "64,64,24", "--out", out("cells.json"), "--json", "-"});
   ASSERT_EQ(r.code, done) << r;

@@ -343,6 +343,16 @@ TEST_F(Outputs, are_read_again_from_standard_input) {
   expect_refused({"verify", "-", "-"}, "reads standard input already");
 }
 
+TEST_F(Outputs, and_standard_input_may_be_a_fifo_whose_writer_is_gone) {
+  const std::string pipe = path("pipe").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  launcher_ = {"/bin/sh", "-c", "cat \"$0\" > \"$1\" & p=$!; exec < \"$1\"; wait $p; shift; exec \"$@\"",
+               file("s.off", cube), pipe};
+  const Outcome info = run({"info", "-", "--json", "-"}, {.seconds = 20});
+  ASSERT_EQ(info.code, done) << info;
+  EXPECT_EQ(info.json()["scene"]["faces"], 6);
+}
+
 TEST_F(Outputs, and_standard_input_is_read_in_the_format_that_is_said_by_all_commands) {
   // Tetrahedra in thirds: its first line is that of OFF.
   const std::string text = "OFF\n4 4 0\n0 0 0\n1/3 0 0\n0 1/3 0\n0 0 1/3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";

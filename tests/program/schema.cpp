@@ -3,6 +3,8 @@
 #include "flaw.h"
 #include "program.h"
 
+#include <sightline/kernel/number.h>
+
 #include <functional>
 #include <sstream>
 
@@ -130,6 +132,27 @@ TEST_F(Schema, of_compare_and_judge_is_what_they_write) {
               status == "done");
   EXPECT_TRUE(wrong(seen, by, [](Json& r) { r["question"] = "render"; }));
   EXPECT_TRUE(wrong(seen, by, [](Json& r) { r["rows"][0]["errors"]["wrong_area"] = "0"; }));
+}
+
+/// A cube of 2^600: areas are beyond doubles, distances beyond floats.
+TEST_F(Schema, says_where_numbers_that_doubles_do_not_hold_are_null) {
+  std::string text = "OFF\n8 6 0\n";
+  const std::string large = sightline::to_string(sightline::Rational(1) << 600);
+  for (int k = 0; k < 8; ++k)
+    for (const int bit : {1, 2, 4}) text += ((k & bit) != 0 ? large : "0") + (bit < 4 ? " " : "\n");
+  text += "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+  const std::string cube = file("cube.off", text);
+  const auto written = [&](std::vector<std::string> words) {
+    const Json schema = run({"schema", words[0]}).json();
+    words.insert(words.end(), {"--json", "-"});
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, done) << r;
+    EXPECT_EQ(flaw(r.json(), schema, schema, words[0]), "") << r;
+    return r.json()["result"];
+  };
+  EXPECT_TRUE(written({"boolean", "union", cube})["area"][1].is_null());
+  const Json rows = written({"compare", cube, "see", "--kernels", "exact", "--sizes", "8", "--bits", "32"})["rows"];
+  EXPECT_TRUE(rows.back()["near"].is_null() && rows.back()["far"].is_null()) << rows;
 }
 
 TEST_F(Schema, is_there_for_each_command_that_writes_json) {
