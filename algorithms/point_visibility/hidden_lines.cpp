@@ -12,26 +12,6 @@
 
 namespace sightline {
 
-std::vector<Scene_edge> scene_edges(const Scene& scene) {
-  std::vector<std::array<std::uint32_t, 3>> sides;  // p, q, piece
-  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
-    const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[i]);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const auto [p, q] = std::minmax(corners[k].point, corners[k + 1 == corners.size() ? 0 : k + 1].point);
-      sides.push_back({p, q, i});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  std::vector<Scene_edge> edges;
-  for (std::size_t k = 0; k < sides.size();) {
-    Scene_edge edge{sides[k][0], sides[k][1], {}};
-    for (; k < sides.size() && sides[k][0] == edge.p && sides[k][1] == edge.q; ++k) edge.pieces.push_back(sides[k][2]);
-    const auto face = [&](std::uint32_t i) { return scene.pieces()[i].face; };
-    if (edge.pieces.size() != 2 || face(edge.pieces[0]) != face(edge.pieces[1])) edges.push_back(std::move(edge));
-  }
-  return edges;
-}
-
 Edge_class classify(const Exact_view& view, const Scene_edge& edge) {
   if (edge.pieces.size() == 1) return Edge_class::boundary;
   const auto on_view = [&](std::uint32_t i) { return view.eye_side(i) == CGAL::POSITIVE; };

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/crossings.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/scene_edges.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/located_point.h>
 #include <sightline/kernel/number.h>
@@ -31,21 +32,12 @@ enum class Edge_class : char {
   crease       ///< any other
 };
 
-/// An edge of the scene: its points, and the pieces that it bounds. Edges between pieces of one face are none.
-struct Scene_edge {
-  std::uint32_t p, q;  ///< p < q
-  std::vector<std::uint32_t> pieces;
-};
-
 /// A part of a line, from p + from (q - p) to p + to (q - p).
 struct Line_part {
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
   Rational from, to;
   std::uint32_t hidden_by;  ///< a piece in front of all of it, or nothing: it is visible
 };
-
-/// The edges of a scene, by their points. Cost: O(n log n).
-std::vector<Scene_edge> scene_edges(const Scene& scene);
 
 Edge_class classify(const Exact_view& view, const Scene_edge& edge);
 

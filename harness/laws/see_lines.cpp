@@ -191,26 +191,52 @@ Exact_point point_inside(const Exact_point& p, const Rational& from, const Ratio
   return between(p, Rational(from + share * (to - from)), q);
 }
 
-/// That the edges are those of pieces, but for edges between two pieces of one face, and that the parts of each go from
-/// its one end to the other, unless the eye is on its line.
-std::string flaw_of_edges(const Scene& scene, const std::vector<Drawn_edge>& edges, const Exact_point& eye) {
-  const std::vector<Piece>& pieces = scene.pieces();
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> all;
-  for (std::uint32_t piece = 0; piece < pieces.size(); ++piece) {
-    const auto corners = scene.corners(pieces[piece]);
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      all[std::minmax(corners[k].point, corners[(k + 1) % corners.size()].point)].push_back(piece);
+/// Whether a point of an edge's line is on the edge: between its ends, or one of them.
+bool holds(const Exact_point& p, const Exact_point& q, const Exact_point& x) {
+  return is_zero(cross(minus(x, p), minus(q, p))) && dot(minus(x, p), minus(x, q)) <= 0;
+}
+
+/// That a point of each piece's side is on one edge that the piece bounds where it is on no other piece of its face,
+/// else on none; and that edges are in order, and bound nothing but sides.
+std::string flaw_of_bounds(const Scene& scene, const Flat_pieces& flats, const std::vector<Drawn_edge>& edges,
+                           Random& random) {
+  std::vector<std::vector<const Scene_edge*>> of_piece(flats.size());
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const Scene_edge& edge = edges[k].edge;
+    if (edge.p >= edge.q || (k > 0 && std::pair(edges[k - 1].edge.p, edges[k - 1].edge.q) >= std::pair(edge.p, edge.q)))
+      return "edges are not in the order of their points, once each";
+    for (const std::uint32_t piece : edge.pieces) {
+      const Points& c = flats[piece].corners;
+      std::size_t sides = 0;
+      for (std::size_t i = 0; i < c.size(); ++i)
+        sides += holds(c[i], c[(i + 1) % c.size()], scene.position(edge.p)) &&
+                 holds(c[i], c[(i + 1) % c.size()], scene.position(edge.q));
+      if (sides != 1) return name_of(scene, edges[k]) + " is on " + std::to_string(sides) + " sides of a piece";
+      of_piece[piece].push_back(&edge);
+    }
   }
-  std::erase_if(all, [&](const auto& edge) {
-    return edge.second.size() == 2 && pieces[edge.second[0]].face == pieces[edge.second[1]].face;
-  });
-  if (edges.size() != all.size())
-    return std::to_string(edges.size()) + " edges are listed, and there are " + std::to_string(all.size());
+  for (std::size_t i = 0; i < flats.size(); ++i)
+    for (std::size_t k = 0; k < flats[i].corners.size(); ++k) {
+      const Exact_point x =
+          point_inside(flats[i].corners[k], 0, 1, flats[i].corners[(k + 1) % flats[i].corners.size()], random);
+      const auto goes_on = [&](std::size_t other) {
+        return other != i && flats[other].face == flats[i].face && flats[other].plane.height(x) == 0 &&
+               std::all_of(flats[other].walls.begin(), flats[other].walls.end(),
+                           [&](const Level& wall) { return wall.height(x) >= 0; });
+      };
+      std::size_t inside = 0, listed = 0;
+      for (std::size_t other = 0; other < flats.size(); ++other) inside += goes_on(other);
+      for (const Scene_edge* edge : of_piece[i]) listed += holds(scene.position(edge->p), scene.position(edge->q), x);
+      if (listed != (inside == 0 ? 1u : 0u))
+        return "of face " + std::to_string(flats[i].face) +
+               (inside == 0 ? " an edge is not listed, or twice" : " an edge is listed that runs inside it");
+    }
+  return {};
+}
+
+/// That the parts of each edge go from its one end to the other, unless the eye is on its line.
+std::string flaw_of_parts(const Scene& scene, const std::vector<Drawn_edge>& edges, const Exact_point& eye) {
   for (const Drawn_edge& drawn : edges) {
-    const auto known = all.find({drawn.edge.p, drawn.edge.q});
-    std::vector<std::uint32_t> bounded = drawn.edge.pieces;
-    std::sort(bounded.begin(), bounded.end());
-    if (known == all.end() || known->second != bounded) return "an edge is listed that is none, or has other pieces";
     const Exact_point p = scene.position(drawn.edge.p), q = scene.position(drawn.edge.q);
     if (is_zero(cross(minus(p, eye), minus(q, eye)))) {
       if (!drawn.parts.empty()) return name_of(scene, drawn) + " has parts, and the eye is on its line";
@@ -228,7 +254,9 @@ std::string flaw_of_edges(const Scene& scene, const std::vector<Drawn_edge>& edg
 
 Outcome check_edges(const Looked& looked, const Flat_pieces& flats, const Exact_point& eye, Random& random) {
   const std::vector<Drawn_edge> edges = looked.edges();
-  if (const std::string flaw = flaw_of_edges(looked.scene, edges, eye); !flaw.empty()) return Outcome::failed(flaw);
+  for (const std::string& flaw :
+       {flaw_of_bounds(looked.scene, flats, edges, random), flaw_of_parts(looked.scene, edges, eye)})
+    if (!flaw.empty()) return Outcome::failed(flaw);
   for (const Drawn_edge& drawn : edges) {
     const Exact_point p = looked.scene.position(drawn.edge.p), q = looked.scene.position(drawn.edge.q);
     for (const Line_part& part : drawn.parts) {
@@ -310,6 +338,31 @@ Posed_scene any_pages(Random& random) {
       strip.push_back(along(along(at, across, wide), up, high));
     faces.push_back(either_way(strip, random));
   }
+  shuffle(faces, random);
+  posed.soup = soup_of(faces);
+  return posed;
+}
+
+/// Polygons of lattice points, mostly concave, of which corners are in line with diagonals and with sides; and fins on
+/// some of their sides.
+Posed_scene any_outlines(Random& random) {
+  using namespace generate;
+  Posed_scene posed;
+  Faces faces;
+  const auto [u, v] = directions(random, 2);
+  const Exact_point origin = lattice(random, 3);
+  const std::int64_t reach = random.between(1, 3);
+  for (std::uint64_t outlines = 1 + random.below(3); outlines > 0; --outlines)
+    for (int tries = 0; tries < 8; ++tries) {
+      Points outline;
+      for (std::uint64_t corners = 4 + random.below(5); corners > 0; --corners)
+        outline.push_back(lattice_in_plane(random, origin, u, v, -reach, reach));
+      if (Scene(soup_of({outline})).pieces().size() < 2) continue;
+      faces.push_back(outline);
+      if (random.chance(1, 2)) faces.push_back({outline[0], outline[1], lattice(random, 4)});
+      break;
+    }
+  posed.eye = lattice(random, 6);
   shuffle(faces, random);
   posed.soup = soup_of(faces);
   return posed;
@@ -405,10 +458,12 @@ Check lines_check() {
           [](const Posed_scene& posed, const Answer&, Random& random) {
             const Outcome outcome = check_lines(posed, random);
             if (outcome.state == Outcome::State::failed || !random.chance(1, 4)) return outcome;
-            const Posed_scene pages = any_pages(random);
-            const Outcome of_pages = check_lines(pages, random);
-            if (of_pages.state != Outcome::State::failed) return outcome;
-            return Outcome::failed("of pages through a line, " + text_of_scene(pages) + ": " + of_pages.what);
+            const bool is_pages = random.chance(1, 2);
+            const Posed_scene own = is_pages ? any_pages(random) : any_outlines(random);
+            const Outcome of_own = check_lines(own, random);
+            if (of_own.state != Outcome::State::failed) return outcome;
+            return Outcome::failed((is_pages ? "of pages through a line, " : "of outlines in a plane, ") +
+                                   text_of_scene(own) + ": " + of_own.what);
           }};
 }
 

@@ -9,7 +9,7 @@ namespace sightline::harness {
 /// That all edges are listed, each with the pieces that it bounds and parts from its one end to the other; that a point
 /// of each part is visible, or hidden by the piece that is named; that faces cross where they are said to; and that a
 /// point of each two pieces' crossing, if it is visible, is on a line that is listed. Of a share of the scenes also of
-/// pages through one line, where the eye is in the plane of one of them.
+/// pages through one line, where the eye is in the plane of one of them, or of concave outlines on a lattice.
 Check lines_check();
 
 /// That a field of view, which goes through points of the scene if it can, shows the same parts of lines as no field.

@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 namespace sightline::see_test {
 namespace {
 
@@ -82,6 +86,46 @@ TEST(Edges, are_of_one_class_each) {
   EXPECT_EQ(classes({rectangle(0, 1, 0, 1, 0), {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}}, {0, 5, 5})[1] +
                 classes({rectangle(0, 1, 0, 1, 0), {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}}, {0, 5, 5})[1],
             1);
+}
+
+/// The edges of some faces, by where their ends are, and how many pieces each bounds.
+std::map<std::pair<Exact_point, Exact_point>, std::size_t> edges_of(const std::vector<view_scenes::Points>& faces) {
+  const Scene scene(view_scenes::soup_of(faces));
+  std::map<std::pair<Exact_point, Exact_point>, std::size_t> found;
+  for (const Scene_edge& edge : scene_edges(scene))
+    found[std::minmax(scene.position(edge.p), scene.position(edge.q))] += edge.pieces.size();
+  return found;
+}
+
+TEST(Edges, are_where_faces_end_whatever_their_pieces_are) {
+  // A corner is in line with two others, so that a diagonal may end at it on one side alone.
+  const view_scenes::Points dart{{0, 0, 0}, {4, 1, 0}, {2, 4, 0}, {2, 1, 0}, {0, 1, 0}};
+  std::map<std::pair<Exact_point, Exact_point>, std::size_t> sides;
+  for (std::size_t k = 0; k < dart.size(); ++k) {
+    const Exact_point p = dart[k], q = dart[(k + 1) % dart.size()];
+    sides[{std::min(p, q), std::max(p, q)}] = 1;
+  }
+  view_scenes::Points turned = dart;
+  for (std::size_t k = 0; k < dart.size(); ++k) {
+    EXPECT_EQ(edges_of({turned}), sides);
+    EXPECT_EQ(edges_of({{turned.rbegin(), turned.rend()}}), sides);
+    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+  }
+  // Another face on a side is at the same edge, one on a diagonal is not.
+  const std::pair<Exact_point, Exact_point> side{{0, 1, 0}, {2, 1, 0}}, inside{{2, 1, 0}, {4, 1, 0}};
+  auto both = edges_of({dart, {side.first, side.second, {1, 1, 3}}});
+  EXPECT_EQ(both.size(), 7u);
+  EXPECT_EQ(both.at(side), 2u);
+  both = edges_of({dart, {inside.first, inside.second, {3, 1, 3}}});
+  EXPECT_EQ(both.size(), 8u);
+  EXPECT_EQ(both.at(inside), 1u);
+  // A slit in line with the side of a hole that it ends at: eight sides of two squares are left.
+  const view_scenes::Points frame{{0, 0, 0}, {6, 0, 0}, {6, 6, 0}, {0, 6, 0}, {0, 2, 0}, {2, 2, 0},
+                                  {2, 4, 0}, {4, 4, 0}, {4, 2, 0}, {2, 2, 0}, {0, 2, 0}};
+  for (const auto& [ends, pieces] : edges_of({frame})) {
+    EXPECT_EQ(pieces, 1u);
+    EXPECT_TRUE(ends.first[1] != 2 || ends.second[1] != 2 || ends.first[0] == 2) << "the slit is inside";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Lines, testing::ValuesIn(view_scenes::families),

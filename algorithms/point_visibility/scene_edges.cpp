@@ -1,0 +1,117 @@
+#include <sightline/algorithms/point_visibility/scene_edges.h>
+
+#include <sightline/kernel/number.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace sightline {
+
+namespace {
+
+/// What a piece bounds of a line.
+struct Side {
+  std::uint32_t p, q;  ///< p < q
+  std::uint32_t piece;
+  std::uint32_t edge;  ///< its plane's id: those of a face in one plane are on one line iff it is the same
+
+  bool has_ends_of(const Side& other) const { return p == other.p && q == other.q; }
+};
+
+std::vector<Side> sides_of(const Scene& scene, std::uint32_t piece) {
+  const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[piece]);
+  std::vector<Side> sides;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const auto [p, q] = std::minmax(corners[k].point, corners[k + 1 == corners.size() ? 0 : k + 1].point);
+    sides.push_back({p, q, piece, corners[k].edge.id()});
+  }
+  return sides;
+}
+
+/// Sides on one line, of pieces of one face in one plane: what is of two pieces, one on either side, is inside the
+/// face.
+void add_bounds(const Scene& scene, std::span<const Side> sides, std::vector<Side>& found) {
+  if (sides.size() == 1) {
+    found.push_back(sides[0]);
+    return;
+  }
+  // 1. The line's points, from end to end.
+  std::map<std::array<Integer, 3>, std::uint32_t> points;
+  const auto place = [&](std::uint32_t p) {
+    return std::array<Integer, 3>{scene.points().integer(p, 0), scene.points().integer(p, 1),
+                                  scene.points().integer(p, 2)};
+  };
+  for (const Side& side : sides)
+    for (const std::uint32_t p : {side.p, side.q}) points.emplace(place(p), p);
+  // 2. The pieces at each stretch between two of them, by where it begins.
+  std::map<std::array<Integer, 3>, std::vector<std::uint32_t>> stretches;
+  for (const Side& side : sides) {
+    const std::array<Integer, 3> p = place(side.p), q = place(side.q);
+    for (auto at = points.find(std::min(p, q)); at->first != std::max(p, q); ++at)
+      stretches[at->first].push_back(side.piece);
+  }
+  // 3. Those with one.
+  for (const auto& [from, pieces] : stretches) {
+    if (pieces.size() == 2) continue;
+    const auto begin = points.find(from);
+    const auto [p, q] = std::minmax(begin->second, std::next(begin)->second);
+    for (const std::uint32_t piece : pieces) found.push_back({p, q, piece, sides[0].edge});
+  }
+}
+
+/// What the pieces of a face bound together: all of their sides, but for what two of them share.
+void add_bounds_of_face(const Scene& scene, std::uint32_t first, std::uint32_t end, std::vector<Side>& found) {
+  std::vector<Side> sides, left;
+  for (std::uint32_t piece = first; piece < end; ++piece)
+    for (const Side& side : sides_of(scene, piece)) sides.push_back(side);
+  if (end - first > 1) {
+    // 1. Sides that are the same, also of pieces in two planes.
+    std::sort(sides.begin(), sides.end(),
+              [](const Side& a, const Side& b) { return std::tie(a.p, a.q, a.piece) < std::tie(b.p, b.q, b.piece); });
+    for (std::size_t k = 0; k < sides.size();) {
+      std::size_t next = k + 1;
+      while (next < sides.size() && sides[next].has_ends_of(sides[k])) ++next;
+      if (next != k + 2) left.insert(left.end(), &sides[k], &sides[k] + (next - k));
+      k = next;
+    }
+    // 2. Such as a corner of the face parts on one side of it only.
+    const auto line = [&](const Side& side) { return std::pair(scene.pieces()[side.piece].support.id(), side.edge); };
+    std::stable_sort(left.begin(), left.end(), [&](const Side& a, const Side& b) { return line(a) < line(b); });
+    for (std::size_t k = 0; k < left.size();) {
+      std::size_t next = k + 1;
+      while (next < left.size() && line(left[next]) == line(left[k])) ++next;
+      add_bounds(scene, std::span(left).subspan(k, next - k), found);
+      k = next;
+    }
+    return;
+  }
+  found.insert(found.end(), sides.begin(), sides.end());
+}
+
+}  // namespace
+
+std::vector<Scene_edge> scene_edges(const Scene& scene) {
+  std::vector<Side> sides;
+  for (std::uint32_t piece = 0; piece < scene.pieces().size();) {
+    std::uint32_t end = piece + 1;
+    while (end < scene.pieces().size() && scene.pieces()[end].face == scene.pieces()[piece].face) ++end;
+    add_bounds_of_face(scene, piece, end, sides);
+    piece = end;
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::tie(a.p, a.q, a.piece) < std::tie(b.p, b.q, b.piece); });
+  std::vector<Scene_edge> edges;
+  for (const Side& side : sides) {
+    if (edges.empty() || edges.back().p != side.p || edges.back().q != side.q) edges.push_back({side.p, side.q, {}});
+    edges.back().pieces.push_back(side.piece);
+  }
+  return edges;
+}
+
+}  // namespace sightline
