@@ -297,7 +297,7 @@ class Cell_pvs_search::Maker {
     Weak_answer answer = search(from, to, counters);
     if (answer.status == Weak_status::undecided) {
       answer = search(to, from, counters);
-      std::swap(answer.sightline[0], answer.sightline[1]);
+      std::reverse(answer.sightline.begin(), answer.sightline.end());
     }
     if (answer.status == Weak_status::undecided && options_.event_edges > 0) {
       answer = by_events(from, to);
@@ -337,7 +337,7 @@ class Cell_pvs_search::Maker {
     answer.status = found.status;
     if (found.status == Weak_status::visible)
       for (const std::size_t k : {0u, 1u})
-        answer.sightline[k] = occluders_.located(scene.position(found.sightline[k].exact));
+        answer.sightline.push_back(occluders_.located(scene.position(found.sightline[k].exact)));
     return answer;
   }
 

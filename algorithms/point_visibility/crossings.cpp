@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -17,10 +18,8 @@ namespace sightline {
 
 namespace {
 
-using Two_planes = std::pair<std::uint32_t, std::uint32_t>;  // by id, the lower one first
-
 /// The pairs of pieces that have boxes with a point in common, of each at least one that is wanted; each pair once or
-/// more.
+/// more; all of them, or those of one chunk.
 class Close_pairs {
  public:
   /// `wanted`: of each piece.
@@ -29,11 +28,19 @@ class Close_pairs {
     wanted_before_.push_back(0);
     for (const Piece_boxes::Chunk& chunk : boxes.chunks())
       wanted_before_.push_back(wanted_before_.back() + (wanted[chunk.piece] ? 1 : 0));
+    leaf_of_.resize(boxes.chunks().size());
+    for (std::uint32_t at = 0; at < boxes.nodes().size(); ++at)
+      if (node(at).second == 0)
+        for (std::uint32_t i = 0; i < node(at).count; ++i) leaf_of_[node(at).first + i] = at;
   }
 
   template <class Visit>
   void each(const Visit& visit) const {
     if (!boxes_.nodes().empty()) within(0, visit);
+  }
+  template <class Visit>
+  void each_of(std::uint32_t chunk, const Visit& visit) const {
+    of_chunk(chunk, 0, visit);
   }
 
  private:
@@ -50,6 +57,17 @@ class Close_pairs {
   template <class Visit>
   void look_at(std::uint32_t i, std::uint32_t j, const Visit& visit) const {
     if (is_wanted(i) || is_wanted(j)) visit(boxes_.chunks()[i].piece, boxes_.chunks()[j].piece);
+  }
+  template <class Visit>
+  void of_chunk(std::uint32_t chunk, std::uint32_t at, const Visit& visit) const {
+    const Piece_boxes::Node& own = node(at);
+    if ((!is_wanted(chunk) && !has_wanted(own)) || !meet(node(leaf_of_[chunk]).box, own.box)) return;
+    if (own.second == 0) {
+      for (std::uint32_t j = own.first; j < own.first + own.count; ++j) look_at(chunk, j, visit);
+      return;
+    }
+    of_chunk(chunk, at + 1, visit);
+    of_chunk(chunk, own.second, visit);
   }
   template <class Visit>
   void within(std::uint32_t at, const Visit& visit) const {
@@ -81,6 +99,7 @@ class Close_pairs {
   }
 
   std::vector<std::uint32_t> wanted_before_;  // of the chunks before each
+  std::vector<std::uint32_t> leaf_of_;        // of each chunk
   const Piece_boxes& boxes_;
 };
 
@@ -117,17 +136,36 @@ class Crossing_search {
 
   std::vector<Crossing> find(const Piece_boxes& boxes, const std::vector<bool>& wanted,
                              const std::function<void()>& go_on) {
-    std::vector<std::uint32_t> chunks(scene_.pieces().size());  // of each piece
-    for (const Piece_boxes::Chunk& chunk : boxes.chunks()) ++chunks[chunk.piece];
-    std::set<std::pair<std::uint32_t, std::uint32_t>> noted;  // those that may come again
-    Close_pairs(boxes, wanted).each([&](std::uint32_t f, std::uint32_t g) {
-      if (go_on) go_on();
-      if ((chunks[f] > 1 || chunks[g] > 1) && !noted.insert(std::minmax(f, g)).second) return;
-      note(f, g);
+    // Plane after plane, each with those of higher ids: of many faces through one line all pairs take too much memory.
+    const Close_pairs pairs(boxes, wanted);
+    std::vector<std::uint32_t> order(boxes.chunks().size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto piece_at = [&](std::size_t k) { return boxes.chunks()[order[k]].piece; };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+      const std::uint32_t f = boxes.chunks()[i].piece, g = boxes.chunks()[j].piece;
+      return std::pair(plane_of(f), f) < std::pair(plane_of(g), g);
     });
-    for (auto& [planes, reached] : reached_) {
+    std::vector<std::uint32_t> close;
+    for (std::size_t k = 0; k < order.size();) {
+      const std::uint32_t f = piece_at(k), plane = plane_of(f);
+      close.clear();
       if (go_on) go_on();
-      add_chords(planes, reached);
+      for (; k < order.size() && piece_at(k) == f; ++k)
+        pairs.each_of(order[k], [&](std::uint32_t, std::uint32_t g) {
+          if (plane_of(g) > plane) close.push_back(g);
+        });
+      std::sort(close.begin(), close.end());
+      close.erase(std::unique(close.begin(), close.end()), close.end());
+      for (const std::uint32_t g : close) {
+        if (go_on) go_on();
+        note(f, g);
+      }
+      if (k < order.size() && plane_of(piece_at(k)) == plane) continue;
+      for (auto& [other, reached] : reached_) {
+        if (go_on) go_on();
+        add_chords({plane, other}, reached);
+      }
+      reached_.clear();
     }
     for (auto& [line, chords] : chords_) {
       if (go_on) go_on();
@@ -181,21 +219,20 @@ class Crossing_search {
     if (!across && (on < 2 || in_plane_[plane_of(piece)] == 1)) return std::nullopt;
     return found;
   }
+  /// Pre: the plane of f is the one that is looked at, that of g has a higher id.
   void note(std::uint32_t f, std::uint32_t g) {
-    if (plane_of(f) == plane_of(g)) return;
-    if (plane_of(f) > plane_of(g)) std::swap(f, g);
     const std::optional<Reaching> one = reach(f, plane_of(g));
     if (!one) return;
     const std::optional<Reaching> other = reach(g, plane_of(f));
     if (!other) return;
-    Reached& reached = reached_[{plane_of(f), plane_of(g)}];
+    Reached& reached = reached_[plane_of(g)];
     reached[low].push_back(*one);
     reached[high].push_back(*other);
   }
 
   // ---- Lines, and the chords that pieces have of them
 
-  void add_chords(const Two_planes& planes, Reached& reached) {
+  void add_chords(const std::pair<std::uint32_t, std::uint32_t>& planes, Reached& reached) {
     for (std::vector<Reaching>& side : reached) {
       std::sort(side.begin(), side.end());
       side.erase(std::unique(side.begin(), side.end()), side.end());
@@ -354,8 +391,8 @@ class Crossing_search {
   const Scene& scene_;
   Predicates predicates_;
   Predicate_counts counts_;
-  std::vector<std::uint32_t> in_plane_;  // pieces, by plane
-  std::map<Two_planes, Reached> reached_;
+  std::vector<std::uint32_t> in_plane_;                         // pieces, by plane
+  std::map<std::uint32_t, Reached> reached_;                    // of the plane that is looked at, by the other one
   std::map<Line_name, std::map<std::uint32_t, Chord>> chords_;  // by piece
   std::vector<Crossing> found_;
 };

@@ -68,11 +68,15 @@ static bool cross_inside(const std::vector<Exact_point>& p, const std::vector<Ex
 
 std::optional<Normal_and_point> plane_between(const std::vector<Exact_point>& p, const std::vector<Exact_point>& q) {
   if (cross_inside(p, q)) return std::nullopt;
-  const auto side = [](const std::vector<Exact_point>& points, const Exact_point& normal,
+  // Of points of which one, that is left out, is on the plane: outwards from it, as those next to it tell of most
+  // planes that they are on both sides.
+  const auto side = [](const std::vector<Exact_point>& points, std::size_t on, const Exact_point& normal,
                        const Exact_point& origin) -> std::optional<int> {
+    const std::size_t n = points.size();
     int found = 0;
-    for (const Exact_point& point : points) {
-      const int s = sgn(dot(normal, minus(point, origin)));
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t away = k / 2 + 1, at = on + (k % 2 == 0 ? away : n - away);
+      const int s = sgn(dot(normal, minus(points[at % n], origin)));
       if (s * found < 0) return std::nullopt;
       if (s != 0) found = s;
     }
@@ -81,12 +85,14 @@ std::optional<Normal_and_point> plane_between(const std::vector<Exact_point>& p,
   for (const auto& [edges, corners] : {std::pair(&p, &q), std::pair(&q, &p)})
     for (std::size_t k = 0; k < edges->size(); ++k) {
       const Exact_point &origin = (*edges)[k], arm = minus((*edges)[k + 1 == edges->size() ? 0 : k + 1], origin);
-      for (const Exact_point& corner : *corners) {
-        const Exact_point normal = cross(arm, minus(corner, origin));
-        const std::optional<int> of_p = side(p, normal, origin);
-        if (!of_p || *of_p == 0) continue;
-        const std::optional<int> of_q = side(q, normal, origin);
-        if (!of_q || *of_q != -*of_p) continue;
+      for (std::size_t l = 0; l < corners->size(); ++l) {
+        const Exact_point normal = cross(arm, minus((*corners)[l], origin));
+        const std::optional<int> other = side(*corners, l, normal, origin);
+        if (!other || *other == 0) continue;
+        int own = 0;  // of any corner, as all are on one side of the edge
+        for (std::size_t c = 0; own == 0 && c < edges->size(); ++c) own = sgn(dot(normal, minus((*edges)[c], origin)));
+        if (own != -*other) continue;
+        const std::optional<int> of_p = edges == &p ? own : other;
         return Normal_and_point{*of_p > 0 ? normal : minus(Exact_point{0, 0, 0}, normal), origin};
       }
     }

@@ -120,7 +120,7 @@ class Region_relation {
   /// Whether i < j from the region. Degenerate: an empty region, or one that no arc's eyes reach but with their
   /// boundary, has no arc; an eye in a face's plane does not see it; a region that faces cut is all its points, inside
   /// solids too. Exact: yes. Cost: a linear program of 6 rows, where no corner of the region and no edge of the faces
-  /// tells; from one viewpoint only for faces that cross. Proof: P-33
+  /// tells; from one viewpoint none. Proof: P-33
   bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
     return arcs(i, j, counters).forth;
   }
@@ -145,7 +145,7 @@ class Region_relation {
   // ---- One viewpoint
 
   /// Arcs of the one viewpoint, in front of both: if the cones overlap, a plane between the faces says which is nearer;
-  /// only faces that cross need more.
+  /// if there is none, each is so somewhere.
   Arcs arcs_of_eye(std::uint32_t i, std::uint32_t j, Arcs whole) const {
     if (separable(i, j)) return {};
     if (!whole.forth || !whole.back) return whole;
@@ -156,13 +156,11 @@ class Region_relation {
       return points;
     };
     const Grid_point& eye = grid_.points[0];
-    if (const auto plane = priority_detail::plane_between(exact_corners(i), exact_corners(j))) {
-      const std::optional<bool> first = Pair_code{Precedence::by_plane, plane}.first_is_nearer(
-          {Rational(eye[0]), Rational(eye[1]), Rational(eye[2])});
-      return {first == true, first == false};
-    }
-    return {priority_detail::an_eye_may_see_over(grid_.faces[i], grid_.faces[j], grid_.points),
-            priority_detail::an_eye_may_see_over(grid_.faces[j], grid_.faces[i], grid_.points)};
+    const auto plane = priority_detail::plane_between(exact_corners(i), exact_corners(j));
+    if (!plane) return {true, true};  // they cross
+    const std::optional<bool> first =
+        Pair_code{Precedence::by_plane, plane}.first_is_nearer({Rational(eye[0]), Rational(eye[1]), Rational(eye[2])});
+    return {first == true, first == false};
   }
 
   /// From the viewpoint to the corners, each entry within a relative 2^-53; infinite where that is beyond doubles.
@@ -175,16 +173,22 @@ class Region_relation {
     }
     return arms;
   }
-  static constexpr unsigned in_front = 1, behind = 2, unknown = 4;
-  /// On which sides of the plane some of the arms are: bits of the constants above. One place is left out.
+  static constexpr unsigned in_front = 1, behind = 2, unknown = 4, both = in_front | behind;
+  /// On which sides of the plane some of the arms are: bits of the constants above, or no more than `both`. One place
+  /// is left out; those next to it tell of most planes through it that they have the face on both sides.
   static unsigned sides_of(const std::vector<Triple>& arms, const priority_detail::Rounded_plane& plane,
                            std::size_t out = ~std::size_t{0}) {
     unsigned found = 0;
-    for (std::size_t c = 0; c < arms.size(); ++c) {
-      if (c == out) continue;
+    const auto look_at = [&](std::size_t c) {
       const int side = plane.side(arms[c]);
       found |= side > 0 ? in_front : side < 0 ? behind : unknown;
+    };
+    if (out < arms.size()) {
+      look_at(out + 1 == arms.size() ? 0 : out + 1);
+      look_at(out == 0 ? arms.size() - 1 : out - 1);
     }
+    for (std::size_t c = 0; c < arms.size() && (found & both) != both; ++c)
+      if (c != out) look_at(c);
     return found;
   }
 
@@ -203,8 +207,7 @@ class Region_relation {
     for (std::size_t k = 0; k < arms_[i].size(); ++k)
       for (std::size_t l = 0; l < arms_[j].size(); ++l) {
         const Rounded_plane plane(arms_[i][k], arms_[j][l]);
-        const unsigned of_i = sides_of(arms_[i], plane, k), of_j = sides_of(arms_[j], plane, l),
-                       both = in_front | behind;
+        const unsigned of_i = sides_of(arms_[i], plane, k), of_j = sides_of(arms_[j], plane, l);
         if ((of_i & both) == both || (of_j & both) == both || (of_i & of_j & both) != 0) continue;
         if (((of_i | of_j) & unknown) == 0 || divides(grid_.points[0], grid_.faces[i], k, grid_.faces[j], l))
           return true;

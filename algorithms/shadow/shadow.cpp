@@ -32,10 +32,10 @@ class Parting {
       Light_cone inside = whole;
       bool any = true;
       for (const Exact_view::Plane& side : surface_.cones[k].sides) {
-        std::array<Light_cone, 2> halves = cut(inside, side);
-        any = !halves[0].rays.empty();
+        const Sides sides = sides_of(inside, side);
+        if (sides.front && sides.behind) inside = std::move(cut(inside, side)[0]);
+        any = sides.front && !inside.rays.empty();
         if (!any) break;
-        inside = std::move(halves[0]);
       }
       if (any) descend(surface_.roots[k], std::move(inside));
     }
@@ -69,23 +69,34 @@ class Parting {
     return cone;
   }
 
-  /// The parts in front of a plane and behind it; one without an inside is empty.
-  std::array<Light_cone, 2> cut(const Light_cone& cone, const Exact_view::Plane& w) {
+  /// Whether a cone has rays strictly in front of a plane, and behind it.
+  struct Sides {
     bool front = false, behind = false;
+  };
+  Sides sides_of(const Light_cone& cone, const Exact_view::Plane& w) {
+    Sides sides;
     for (const Exact_view::Ray& r : cone.rays) {
       const Sign s = view_.side(w, r, counts_);
-      front = front || s == CGAL::POSITIVE;
-      behind = behind || s == CGAL::NEGATIVE;
+      sides.front = sides.front || s == CGAL::POSITIVE;
+      sides.behind = sides.behind || s == CGAL::NEGATIVE;
     }
-    if (front && behind) {
-      ++counters_.cuts;
-      return visible_detail::cut(view_, cone, w, counts_);
-    }
-    return front ? std::array<Light_cone, 2>{cone, Light_cone{}} : std::array<Light_cone, 2>{Light_cone{}, cone};
+    return sides;
+  }
+  /// The parts in front of a plane and behind it. Pre: it has some of the cone on either side.
+  std::array<Light_cone, 2> cut(const Light_cone& cone, const Exact_view::Plane& w) {
+    ++counters_.cuts;
+    return visible_detail::cut(view_, cone, w, counts_);
   }
 
   /// Parts a cone below a child of the tree; two parts of it with one answer are one again.
   void descend(std::int32_t child, Light_cone cone) {
+    // Past nodes that do not cut it, which are as many as the tree is deep.
+    while (child >= 0) {
+      const Seen_surface::Node& node = surface_.nodes[static_cast<std::size_t>(child)];
+      const Sides sides = sides_of(cone, node.plane);
+      if (sides.front && sides.behind) break;
+      child = sides.front ? node.front : node.behind;
+    }
     if (child < 0) {
       const std::uint32_t seen = surface_.parts[static_cast<std::size_t>(~child)].piece;
       if (seen == Seen_surface::nothing) throw std::logic_error("a piece in directions in which nothing is seen");

@@ -127,7 +127,7 @@ Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source&
 Weak_answer weak_answer(const Events_answer& found) {
   Weak_answer answer;
   answer.status = found.status;
-  answer.sightline = found.sightline;
+  if (found.status == Weak_status::visible) answer.sightline.assign(found.sightline.begin(), found.sightline.end());
   return answer;
 }
 

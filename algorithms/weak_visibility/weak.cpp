@@ -69,7 +69,9 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
   for_each_face(pieces, first, options.threads, options.progress, decide);
 
   Weakly_visible all;
-  all.pairs.reserve(first.size());
+  std::size_t pairs = 0;
+  for (const Result& result : results) pairs += result.pairs.size();
+  all.pairs.reserve(pairs);
   for (std::size_t f = 0; f < first.size(); ++f) {
     if (!is_wanted(f)) continue;
     Result& result = results[f];
@@ -79,6 +81,7 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
       if (result.status != Weak_status::undecided) all.pairs.push_back(std::move(pair));
       else if (pair.answer.status == Weak_status::undecided) all.open.push_back(std::move(pair));
     }
+    result = {};  // both at once would be twice as much
   }
   return all;
 }

@@ -84,8 +84,9 @@ struct Weak_line {
 
 struct Weak_answer {
   Weak_status status = Weak_status::undecided;
-  std::array<Near_point, 2> sightline;  ///< where visible: strictly inside source and target
-  std::vector<Weak_step> proof;         ///< where hidden; where undecided with steps that are `open`
+  std::vector<Near_point> sightline;  ///< where visible: two points, strictly inside source and target; else none, as
+                                      ///< hidden pairs are many
+  std::vector<Weak_step> proof;       ///< where hidden; where undecided with steps that are `open`
   std::vector<Weak_line> lines;
 };
 

@@ -22,6 +22,8 @@ Order_truth::Order_truth(const Scene& scene, const Exact_point& eye, bool two_si
     const int side = order_check::Plane{order_check::newell_normal(polygon), polygon[0]}.side(eye);
     face.required = side > 0 || (two_sided && side < 0);
   }
+  for (Face& face : faces_)
+    if (!face.pieces.empty()) face.measure();
   find_cycle();
 }
 
@@ -45,6 +47,14 @@ void Order_truth::Face::set_plane(const std::array<Rational, 4>& coefficients) {
     if (abs(plane[axis]) < abs(plane[k])) axis = k;
 }
 
+void Order_truth::Face::measure() {
+  order_check::Polygon corners;
+  for (const order_check::Polygon& polygon : pieces) corners.insert(corners.end(), polygon.begin(), polygon.end());
+  const std::array<Exact_point, 2> box = exact_box(corners);
+  for (std::size_t k = 0; k < 3; ++k) size = std::max(size, Rational(box[1][k] - box[0][k]));
+  for (const order_check::Polygon& polygon : pieces) area += flat(polygon).area();
+}
+
 Flat_polygon Order_truth::Face::flat(const std::vector<Exact_point>& points) const {
   std::vector<Flat_polygon::Point> corners;
   for (const Exact_point& p : points) corners.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
@@ -52,21 +62,10 @@ Flat_polygon Order_truth::Face::flat(const std::vector<Exact_point>& points) con
 }
 
 bool Order_truth::Face::leaves(const std::vector<Exact_point>& part) const {
-  order_check::Polygon corners;
-  for (const order_check::Polygon& polygon : pieces) corners.insert(corners.end(), polygon.begin(), polygon.end());
-  const std::array<Exact_point, 2> box = exact_box(corners);
-  Rational most = 0;  // side of the box
-  for (std::size_t k = 0; k < 3; ++k) most = std::max(most, Rational(box[1][k] - box[0][k]));
   return std::any_of(part.begin(), part.end(), [&](const Exact_point& p) {
     const Rational height = (plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3]) / plane[axis];
-    return Rational(abs(height) * (1 << tolerance_bits)) > most;
+    return Rational(abs(height) * (1 << tolerance_bits)) > size;
   });
-}
-
-Rational Order_truth::Face::area() const {
-  Rational sum = 0;
-  for (const order_check::Polygon& polygon : pieces) sum += flat(polygon).area();
-  return sum;
 }
 
 order_check::Polygon Order_truth::Face::shrunk(const Flat_polygon& part) const {
@@ -138,7 +137,7 @@ std::vector<std::array<Face_id, 2>> Order_truth::wrong_pairs(const Answer& answe
         place.push_back(i);
       }
     } else if (const Flat_polygon part = face.flat(drawn.part);
-               Rational(part.area() * (1 << tolerance_bits)) > face.area()) {
+               Rational(part.area() * (1 << tolerance_bits)) > face.area) {
       cones.emplace_back(face.shrunk(part), eye_);
       place.push_back(i);
     }
@@ -181,7 +180,7 @@ void Order_truth::judge_areas(const Answer& answer, Grade& grade, std::set<Face_
     const auto beyond_rounding = [&](const std::vector<Flat_polygon>& polygons) {
       Rational sum = 0;
       for (const Flat_polygon& polygon : polygons) sum += polygon.area();
-      return Rational(sum * (1 << tolerance_bits)) > face.area();
+      return Rational(sum * (1 << tolerance_bits)) > face.area;
     };
     if (face.required && beyond_rounding(missing)) hidden.insert(f);
     if (beyond_rounding(outside)) shown.insert(f);

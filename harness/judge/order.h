@@ -44,13 +44,14 @@ class Order_truth {
     std::vector<order_check::Polygon> pieces;  // none: it is set aside
     std::array<Rational, 4> plane;
     std::size_t axis = 0;  // the dominant one of the normal
+    Rational size, area;   // the longest side of its box; seen along the axis
     bool required = false;
 
     void set_plane(const std::array<Rational, 4>& coefficients);
+    void measure();
     Flat_polygon flat(const std::vector<Exact_point>& points) const;
     /// Whether some corner is out of the plane, along the dominant axis, by more than the tolerance of the face's size.
     bool leaves(const std::vector<Exact_point>& part) const;
-    Rational area() const;
     /// A part on the plane, smaller by the tolerance, in either sense.
     order_check::Polygon shrunk(const Flat_polygon& part) const;
   };

@@ -278,6 +278,21 @@ TEST(Orders, have_wrong_pairs_whatever_else_is_wrong) {
   EXPECT_TRUE(truth.wrong_pairs(answer).empty());
 }
 
+TEST(Orders, of_a_face_of_thousands_of_corners_in_as_many_parts_are_judged_as_fast_as_of_one_of_few) {
+  // Between a parabola and a chord of it, in strips: a minute where each part asked for all of the face.
+  constexpr int n = 5000;
+  Polygon_soup soup;
+  std::vector<Point_id> corners;
+  for (int x = 0; x < n; ++x) corners.push_back(soup.add_point(x, x * x, 0));
+  soup.add_face(corners);
+  Answer answer;
+  for (int x = 0; x + 1 < n; ++x) {
+    const int y = (n - 1) * x, on = x + 1;
+    answer.order.push_back({0, {{x, x * x, 0}, {on, on * on, 0}, {on, y + n - 1, 0}, {x, y, 0}}});
+  }
+  EXPECT_TRUE(Order_truth(Scene(soup), {0, 0, 5}, true).wrong_pairs(answer).empty());
+}
+
 TEST(Orders, of_squares_a_hair_apart_are_judged_exactly) {
   Polygon_soup soup;
   add_square(soup, 0, 1);

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
 #include <map>
 #include <set>
 
@@ -250,6 +252,21 @@ TEST(Crossing_lines, through_one_line_are_one_and_do_not_depend_on_the_order_of_
               (std::set<Segment>{{{0, -3, 0}, {0, 3, 0}, {0, 1, 2}}}));
     std::rotate(faces.begin(), faces.begin() + 1, faces.end());
   }
+}
+
+TEST(Crossing_lines, of_many_faces_through_one_line_take_memory_in_proportion_to_these) {
+  constexpr int n = 1000;
+  std::vector<Points> faces;
+  for (int i = 0; i < n; ++i) faces.push_back({{n, i, -1}, {n, i, 1}, {-n, -i, 1}, {-n, -i, -1}});
+  const Scene scene(view_scenes::soup_of(faces));
+  const Piece_boxes boxes(scene);
+  rusage before, after;
+  getrusage(RUSAGE_SELF, &before);
+  const std::vector<Crossing> found = crossings(scene, boxes);
+  getrusage(RUSAGE_SELF, &after);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].faces.size(), std::size_t{n});
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 40000);  // kB; all pairs take 80 000
 }
 
 TEST(Crossing_lines, that_a_third_face_hides_are_not_listed_in_any_order) {

@@ -456,6 +456,38 @@ TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corne
   EXPECT_GT(whole, arcs + least(600u));
 }
 
+TEST(Scope, of_a_viewpoint_over_faces_of_thousands_of_corners_has_their_arc_in_time) {
+  // Minutes where each plane through a corner of each looked at all corners of both.
+  constexpr int n = 2000;
+  std::vector<Points> faces(2);
+  for (int z = 0; z < 2; ++z)
+    for (int x = 0; x < n; ++x) faces[static_cast<std::size_t>(z)].push_back({x, x * x, z});
+  const Related scene(generate::soup_of(faces));
+  const Region region(scene.relation, View_region::eye({n / 2, n * n / 2, n}));
+  Relation_counters counters;
+  const Arcs arcs = region.arcs(0, 1, counters);
+  EXPECT_FALSE(arcs.forth);
+  EXPECT_TRUE(arcs.back);
+}
+
+TEST(Scope, of_a_viewpoint_before_a_face_of_thousands_of_corners_that_many_cross_has_both_arcs_in_time) {
+  // Minutes where each pair took linear programs of a column for each corner.
+  constexpr int n = 2000, walls = 500;
+  std::vector<Points> faces(1);
+  for (int x = 0; x < n; ++x) faces[0].push_back({x, x * x, 0});
+  for (int k = 1; k <= walls; ++k) {
+    const int x = 2 * k, y = x * n / 2;
+    faces.push_back({{x, y, -1}, {x, y + 1, -1}, {x, y + 1, 1}, {x, y, 1}});
+  }
+  const Related scene(generate::soup_of(faces));
+  const Region region(scene.relation, View_region::eye({n, 0, n}));
+  Relation_counters counters;
+  for (std::uint32_t wall = 1; wall <= walls; ++wall) {
+    const Arcs arcs = region.arcs(0, wall, counters);
+    EXPECT_TRUE(arcs.forth && arcs.back) << wall;
+  }
+}
+
 TEST(Scope, of_a_region_that_touches_the_set_of_eyes_only_in_its_boundary_has_no_arc) {
   const Related scene(two_squares());
   const Rational half = ratio(1, 2), hair = exact(0x1p-60);

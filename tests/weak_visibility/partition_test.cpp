@@ -7,6 +7,7 @@
 
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/weak_visibility/partition/merged_occluders.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/harness/laws/weak_partition.h>
 #include <sightline/io/read.h>
@@ -489,6 +490,17 @@ TEST(Partition, that_time_ends_says_nothing_else_than_the_whole_one) {
 }
 
 // ---- The arrangement
+
+TEST(Merged_pieces, of_a_fan_of_thousands_of_triangles_are_one_in_time) {
+  // Of a polygon between a parabola and a chord: a minute where each step took what the polygon so far has of corners.
+  constexpr int n = 20000;
+  Polygon_soup soup;
+  for (int x = 0; x < n; ++x) soup.add_point(x, x * x, 0);
+  for (Point_id k = 1; k + 1 < n; ++k) soup.add_face(std::vector<Point_id>{0, k, k + 1});
+  const Polygon_soup merged = merged_pieces(Scene(soup));
+  ASSERT_EQ(merged.face_count(), 1u);
+  EXPECT_EQ(merged.loop(0).size(), std::size_t{n});
+}
 
 TEST(Curve_arrangement, of_a_circle_and_a_line_has_their_areas) {
   // (x - 1/2)^2 + (y - 1/2)^2 = 1/16, and y = x.

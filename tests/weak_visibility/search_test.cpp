@@ -88,6 +88,9 @@ TEST_P(Families, have_the_answers_they_were_built_for_and_certificates) {
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::Range(std::size_t{0}, weak_scenes::families().size()),
                          [](const auto& of) { return weak_scenes::families()[of.param].name; });
 
+// This is kept of each source and piece that it does not see, and a proof.
+static_assert(sizeof(Weakly_visible::Pair) <= 12 * sizeof(void*));
+
 TEST(Weak_visibility, counts_a_pair_as_facing_away_once_though_a_plane_cuts_it) {
   // A square that looks up, and one across its plane that looks away from it, or to it.
   const auto at = [](long x, long y, long z) { return Exact_point{Rational(x), Rational(y), Rational(z)}; };

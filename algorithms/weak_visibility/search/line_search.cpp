@@ -60,7 +60,7 @@ Weak_answer Line_search::run(Weak_counters& counters) {
   answer.status = found.status;
   for (const Edge_lines::Edge_line& line : lines_.all()) answer.lines.push_back(line.edge);
   counters.lines += lines_.size();
-  if (found.status == Weak_status::visible) answer.sightline = sightline_;
+  if (found.status == Weak_status::visible) answer.sightline.assign(sightline_.begin(), sightline_.end());
   else answer.proof = in_order(found.node);
   return answer;
 }
