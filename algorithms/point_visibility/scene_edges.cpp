@@ -24,6 +24,8 @@ struct Side {
   bool has_ends_of(const Side& other) const { return p == other.p && q == other.q; }
 };
 
+bool comes_before(const Side& a, const Side& b) { return std::tie(a.p, a.q, a.piece) < std::tie(b.p, b.q, b.piece); }
+
 std::vector<Side> sides_of(const Scene& scene, std::uint32_t piece) {
   const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[piece]);
   std::vector<Side> sides;
@@ -66,46 +68,50 @@ void add_bounds(const Scene& scene, std::span<const Side> sides, std::vector<Sid
 }
 
 /// What the pieces of a face bound together: all of their sides, but for what two of them share.
-void add_bounds_of_face(const Scene& scene, std::uint32_t first, std::uint32_t end, std::vector<Side>& found) {
+void add_bounds_of_face(const Scene& scene, std::span<const Piece> pieces, std::uint32_t first,
+                        std::vector<Side>& found) {
   std::vector<Side> sides, left;
-  for (std::uint32_t piece = first; piece < end; ++piece)
-    for (const Side& side : sides_of(scene, piece)) sides.push_back(side);
-  if (end - first > 1) {
-    // 1. Sides that are the same, also of pieces in two planes.
-    std::sort(sides.begin(), sides.end(),
-              [](const Side& a, const Side& b) { return std::tie(a.p, a.q, a.piece) < std::tie(b.p, b.q, b.piece); });
-    for (std::size_t k = 0; k < sides.size();) {
-      std::size_t next = k + 1;
-      while (next < sides.size() && sides[next].has_ends_of(sides[k])) ++next;
-      if (next != k + 2) left.insert(left.end(), &sides[k], &sides[k] + (next - k));
-      k = next;
-    }
-    // 2. Such as a corner of the face parts on one side of it only.
-    const auto line = [&](const Side& side) { return std::pair(scene.pieces()[side.piece].support.id(), side.edge); };
-    std::stable_sort(left.begin(), left.end(), [&](const Side& a, const Side& b) { return line(a) < line(b); });
-    for (std::size_t k = 0; k < left.size();) {
-      std::size_t next = k + 1;
-      while (next < left.size() && line(left[next]) == line(left[k])) ++next;
-      add_bounds(scene, std::span(left).subspan(k, next - k), found);
-      k = next;
-    }
+  for (std::uint32_t k = 0; k < pieces.size(); ++k)
+    for (const Side& side : sides_of(scene, first + k)) sides.push_back(side);
+  if (pieces.size() == 1) {
+    found.insert(found.end(), sides.begin(), sides.end());
     return;
   }
-  found.insert(found.end(), sides.begin(), sides.end());
+  // 1. Sides that are the same. A surface of several planes is triangles of all corners: they share nothing else.
+  std::sort(sides.begin(), sides.end(), comes_before);
+  for (std::size_t k = 0; k < sides.size();) {
+    std::size_t next = k + 1;
+    while (next < sides.size() && sides[next].has_ends_of(sides[k])) ++next;
+    if (next != k + 2) left.insert(left.end(), &sides[k], &sides[k] + (next - k));
+    k = next;
+  }
+  const auto is_in_one_plane = [&](const Piece& piece) { return piece.support.id() == pieces[0].support.id(); };
+  if (!std::all_of(pieces.begin(), pieces.end(), is_in_one_plane)) {
+    found.insert(found.end(), left.begin(), left.end());
+    return;
+  }
+  // 2. In one plane, such as a corner of the face parts on one side of it only.
+  std::stable_sort(left.begin(), left.end(), [](const Side& a, const Side& b) { return a.edge < b.edge; });
+  for (std::size_t k = 0; k < left.size();) {
+    std::size_t next = k + 1;
+    while (next < left.size() && left[next].edge == left[k].edge) ++next;
+    add_bounds(scene, std::span(left).subspan(k, next - k), found);
+    k = next;
+  }
 }
 
 }  // namespace
 
 std::vector<Scene_edge> scene_edges(const Scene& scene) {
+  const std::span<const Piece> pieces = scene.pieces();
   std::vector<Side> sides;
-  for (std::uint32_t piece = 0; piece < scene.pieces().size();) {
-    std::uint32_t end = piece + 1;
-    while (end < scene.pieces().size() && scene.pieces()[end].face == scene.pieces()[piece].face) ++end;
-    add_bounds_of_face(scene, piece, end, sides);
-    piece = end;
+  for (std::uint32_t first = 0; first < pieces.size();) {
+    std::uint32_t end = first + 1;
+    while (end < pieces.size() && pieces[end].face == pieces[first].face) ++end;
+    add_bounds_of_face(scene, pieces.subspan(first, end - first), first, sides);
+    first = end;
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return std::tie(a.p, a.q, a.piece) < std::tie(b.p, b.q, b.piece); });
+  std::sort(sides.begin(), sides.end(), comes_before);
   std::vector<Scene_edge> edges;
   for (const Side& side : sides) {
     if (edges.empty() || edges.back().p != side.p || edges.back().q != side.q) edges.push_back({side.p, side.q, {}});

@@ -196,8 +196,8 @@ bool holds(const Exact_point& p, const Exact_point& q, const Exact_point& x) {
   return is_zero(cross(minus(x, p), minus(q, p))) && dot(minus(x, p), minus(x, q)) <= 0;
 }
 
-/// That a point of each piece's side is on one edge that the piece bounds where it is on no other piece of its face,
-/// else on none; and that edges are in order, and bound nothing but sides.
+/// That a point of each piece's side is on one edge that the piece bounds where the face ends there, else on none; and
+/// that edges are in order, and bound nothing but sides.
 std::string flaw_of_bounds(const Scene& scene, const Flat_pieces& flats, const std::vector<Drawn_edge>& edges,
                            Random& random) {
   std::vector<std::vector<const Scene_edge*>> of_piece(flats.size());
@@ -215,21 +215,31 @@ std::string flaw_of_bounds(const Scene& scene, const Flat_pieces& flats, const s
       of_piece[piece].push_back(&edge);
     }
   }
+  std::map<Face_id, std::size_t> planes_of;
+  for (std::size_t i = 0; i < flats.size(); ++i)
+    planes_of[flats[i].face] += i == 0 || flats[i - 1].face != flats[i].face || !flats[i].is_in_plane_of(flats[i - 1]);
   for (std::size_t i = 0; i < flats.size(); ++i)
     for (std::size_t k = 0; k < flats[i].corners.size(); ++k) {
-      const Exact_point x =
-          point_inside(flats[i].corners[k], 0, 1, flats[i].corners[(k + 1) % flats[i].corners.size()], random);
+      const Exact_point &p = flats[i].corners[k], &q = flats[i].corners[(k + 1) % flats[i].corners.size()],
+                        x = point_inside(p, 0, 1, q, random);
+      // In a face of one plane by the point; surfaces of several may touch themselves: there by the side's ends.
       const auto goes_on = [&](std::size_t other) {
-        return other != i && flats[other].face == flats[i].face && flats[other].plane.height(x) == 0 &&
-               std::all_of(flats[other].walls.begin(), flats[other].walls.end(),
+        if (other == i || flats[other].face != flats[i].face || flats[other].plane.height(x) != 0) return false;
+        const auto has = [&](const Exact_point& corner) {
+          return std::find(flats[other].corners.begin(), flats[other].corners.end(), corner) !=
+                 flats[other].corners.end();
+        };
+        if (planes_of[flats[i].face] > 1) return has(p) && has(q);
+        return std::all_of(flats[other].walls.begin(), flats[other].walls.end(),
                            [&](const Level& wall) { return wall.height(x) >= 0; });
       };
       std::size_t inside = 0, listed = 0;
       for (std::size_t other = 0; other < flats.size(); ++other) inside += goes_on(other);
       for (const Scene_edge* edge : of_piece[i]) listed += holds(scene.position(edge->p), scene.position(edge->q), x);
-      if (listed != (inside == 0 ? 1u : 0u))
+      const bool ends = planes_of[flats[i].face] > 1 ? inside != 1 : inside == 0;  // three may meet in one line
+      if (listed != (ends ? 1u : 0u))
         return "of face " + std::to_string(flats[i].face) +
-               (inside == 0 ? " an edge is not listed, or twice" : " an edge is listed that runs inside it");
+               (ends ? " an edge is not listed, or twice" : " an edge is listed that runs inside it");
     }
   return {};
 }

@@ -37,7 +37,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -277,14 +276,12 @@ inline void try_fins(generate::Random& random) {
     for (std::size_t k = 0; k < corners.size(); ++k)
       all[std::minmax(corners[k].point, corners[(k + 1) % corners.size()].point)].push_back(piece);
   }
-  for (auto& [ends, pieces] : all) {  // the diagonal is no edge of the quadrilateral's pieces
+  for (auto& edge : all) {  // the diagonal is no edge of the quadrilateral's pieces
+    const std::vector<std::uint32_t> pieces = edge.second;
     const auto face = [&](std::uint32_t piece) { return scene.pieces()[piece].face; };
-    const auto of_two = [&](std::uint32_t piece) {
+    std::erase_if(edge.second, [&](std::uint32_t piece) {
       return std::count_if(pieces.begin(), pieces.end(), [&](auto other) { return face(other) == face(piece); }) > 1;
-    };
-    std::vector<std::uint32_t> left;
-    std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(left), [&](auto piece) { return !of_two(piece); });
-    pieces = std::move(left);
+    });
   }
   std::erase_if(all, [](const auto& edge) { return edge.second.empty(); });
   std::vector<Scene_edge> found = scene_edges(scene);
