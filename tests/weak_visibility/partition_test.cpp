@@ -506,18 +506,24 @@ TEST(Curve_arrangement, of_a_circle_and_a_line_has_their_areas) {
   // (x - 1/2)^2 + (y - 1/2)^2 = 1/16, and y = x.
   const std::vector<Plane_curve> curves{{{7, -16, -16, 16, 0, 16}}, {{0, -1, 1, 0, 0, 0}}};
   const Curve_arrangement found(curves, {0, 1, 0, 1});
-  double low = 0, high = 0;
-  for (std::size_t s = 0; s < found.slabs().size(); ++s)
-    for (const Curve_arrangement::Arc& arc : found.slabs()[s].arcs) {
-      if (arc.curve != 0) continue;
-      const Bounded area = found.area_below(arc, s);
-      low += arc.upper ? area.low : -area.high;
-      high += arc.upper ? area.high : -area.low;
-    }
+  const auto bounds = [&](int halvings) {
+    double low = 0, high = 0;
+    for (std::size_t s = 0; s < found.slabs().size(); ++s)
+      for (const Curve_arrangement::Arc& arc : found.slabs()[s].arcs) {
+        if (arc.curve != 0) continue;
+        const Bounded area = found.area_below(arc, s, halvings);
+        low += arc.upper ? area.low : -area.high;
+        high += arc.upper ? area.high : -area.low;
+      }
+    return Bounded{low, high};
+  };
   const double circle = std::acos(-1.0) / 16;
-  EXPECT_LE(low, circle);
-  EXPECT_GE(high, circle);
-  EXPECT_LT(high - low, 1e-6);
+  for (const auto& [halvings, apart] : {std::pair(14, 1e-6), {4, 0.02}, {0, 1.0}}) {
+    const Bounded area = bounds(halvings);
+    EXPECT_LE(area.low, circle) << halvings;
+    EXPECT_GE(area.high, circle) << halvings;
+    EXPECT_LT(area.high - area.low, apart) << halvings;
+  }
   for (const Curve_arrangement::Slab& slab : found.slabs())
     for (std::size_t k = 0; k < slab.y.size(); ++k)
       for (const Plane_curve& curve : curves) EXPECT_NE(curve.sign(slab.x, slab.y[k]), 0);

@@ -200,13 +200,13 @@ double Curve_arrangement::near(const Arc& arc, double x) const {
   return std::clamp((std::max(y.inf(), box_.y0) + std::min(y.sup(), box_.y1)) / 2, box_.y0, box_.y1);
 }
 
-Bounded Curve_arrangement::area_below(const Arc& arc, std::size_t slab) const {
+Bounded Curve_arrangement::area_below(const Arc& arc, std::size_t slab, int halvings) const {
   const Range box(box_.y0, box_.y1), from = range(limits_[slab]), to = range(limits_[slab + 1]);
   const double a = from.sup(), b = to.inf();
   if (!(a < b)) return bounded(common(to - from, Range(0, 1)) * box);
   const std::array<Bounded, 9>& near = near_[arc.curve];
   const auto at = [&](double x) { return common(box, height(near, arc.upper, Range(x))); };
-  const Range inner = integral(near, arc.upper, a, b, at(a), at(b), 14);
+  const Range inner = integral(near, arc.upper, a, b, at(a), at(b), halvings);
   // What the limits' bounds leave out.
   return bounded(inner + (Range(a) - from) * box + (to - Range(b)) * box);
 }

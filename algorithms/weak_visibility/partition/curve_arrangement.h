@@ -58,8 +58,9 @@ class Curve_arrangement {
   Bounded value(const Arc& arc, std::size_t limit) const;
   /// y of an arc at a place within its slab, rounded.
   double near(const Arc& arc, double x) const;
-  /// The area between an arc and y = 0, within its slab.
-  Bounded area_below(const Arc& arc, std::size_t slab) const;
+  /// The area between an arc and y = 0, within its slab, in up to 2^halvings parts: bounds are a 2^-30 of the slab's
+  /// width apart where these do for it.
+  Bounded area_below(const Arc& arc, std::size_t slab, int halvings = 14) const;
 
  private:
   std::vector<Slab> slabs_;

@@ -153,7 +153,7 @@ void Partition_builder::measure_cells(Light_partition& result) {
       add(cell(slab.arcs.size()), width * Interval(leaf.box.y1));
       for (std::size_t k = 0; k < slab.arcs.size(); ++k) {
         if (cell(k) == cell(k + 1)) continue;
-        const Interval area = bounds(leaf.arrangement.area_below(slab.arcs[k], s));
+        const Interval area = bounds(leaf.arrangement.area_below(slab.arcs[k], s, is_over() ? 4 : 14));
         add(cell(k), area);
         add(cell(k + 1), -area);
       }
