@@ -255,7 +255,7 @@ TEST(Crossing_lines, through_one_line_are_one_and_do_not_depend_on_the_order_of_
 }
 
 TEST(Crossing_lines, of_many_faces_through_one_line_take_memory_in_proportion_to_these) {
-  constexpr int n = 1000;
+  const int n = test_scenes::is_sanitized() ? 100 : 1000;
   std::vector<Points> faces;
   for (int i = 0; i < n; ++i) faces.push_back({{n, i, -1}, {n, i, 1}, {-n, -i, 1}, {-n, -i, -1}});
   const Scene scene(view_scenes::soup_of(faces));
@@ -265,7 +265,8 @@ TEST(Crossing_lines, of_many_faces_through_one_line_take_memory_in_proportion_to
   const std::vector<Crossing> found = crossings(scene, boxes);
   getrusage(RUSAGE_SELF, &after);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].faces.size(), std::size_t{n});
+  EXPECT_EQ(found[0].faces.size(), faces.size());
+  if (test_scenes::is_sanitized()) GTEST_SKIP() << "memory is what sanitizers have it be";
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 40000);  // kB; all pairs take 80 000
 }
 
