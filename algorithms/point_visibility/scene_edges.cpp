@@ -26,14 +26,12 @@ struct Side {
 
 bool comes_before(const Side& a, const Side& b) { return std::tie(a.p, a.q, a.piece) < std::tie(b.p, b.q, b.piece); }
 
-std::vector<Side> sides_of(const Scene& scene, std::uint32_t piece) {
+void add_sides(const Scene& scene, std::uint32_t piece, std::vector<Side>& found) {
   const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[piece]);
-  std::vector<Side> sides;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const auto [p, q] = std::minmax(corners[k].point, corners[k + 1 == corners.size() ? 0 : k + 1].point);
-    sides.push_back({p, q, piece, corners[k].edge.id()});
+    found.push_back({p, q, piece, corners[k].edge.id()});
   }
-  return sides;
 }
 
 /// Sides on one line, of pieces of one face in one plane: what is of two pieces, one on either side, is inside the
@@ -43,40 +41,38 @@ void add_bounds(const Scene& scene, std::span<const Side> sides, std::vector<Sid
     found.push_back(sides[0]);
     return;
   }
-  // 1. The line's points, from end to end.
-  std::map<std::array<Integer, 3>, std::uint32_t> points;
+  // 1. The line's points, from end to end, each with the pieces at the stretch that begins there.
+  struct Stretch {
+    std::uint32_t from;
+    std::vector<std::uint32_t> pieces;
+  };
+  std::map<std::array<Integer, 3>, Stretch> stretches;
   const auto place = [&](std::uint32_t p) {
     return std::array<Integer, 3>{scene.points().integer(p, 0), scene.points().integer(p, 1),
                                   scene.points().integer(p, 2)};
   };
   for (const Side& side : sides)
-    for (const std::uint32_t p : {side.p, side.q}) points.emplace(place(p), p);
-  // 2. The pieces at each stretch between two of them, by where it begins.
-  std::map<std::array<Integer, 3>, std::vector<std::uint32_t>> stretches;
+    for (const std::uint32_t p : {side.p, side.q}) stretches.emplace(place(p), Stretch{p, {}});
   for (const Side& side : sides) {
     const std::array<Integer, 3> p = place(side.p), q = place(side.q);
-    for (auto at = points.find(std::min(p, q)); at->first != std::max(p, q); ++at)
-      stretches[at->first].push_back(side.piece);
+    for (auto at = stretches.find(std::min(p, q)); at->first != std::max(p, q); ++at)
+      at->second.pieces.push_back(side.piece);
   }
-  // 3. Those with one.
-  for (const auto& [from, pieces] : stretches) {
+  // 2. What is not of two.
+  for (auto at = stretches.begin(); at != stretches.end(); ++at) {
+    const std::vector<std::uint32_t>& pieces = at->second.pieces;
+    if (pieces.empty()) continue;
     if (pieces.size() == 2) continue;
-    const auto begin = points.find(from);
-    const auto [p, q] = std::minmax(begin->second, std::next(begin)->second);
+    const auto [p, q] = std::minmax(at->second.from, std::next(at)->second.from);
     for (const std::uint32_t piece : pieces) found.push_back({p, q, piece, sides[0].edge});
   }
 }
 
-/// What the pieces of a face bound together: all of their sides, but for what two of them share.
+/// What the pieces of a face, which has several, bound together: all of their sides, but for what two of them share.
 void add_bounds_of_face(const Scene& scene, std::span<const Piece> pieces, std::uint32_t first,
                         std::vector<Side>& found) {
   std::vector<Side> sides, left;
-  for (std::uint32_t k = 0; k < pieces.size(); ++k)
-    for (const Side& side : sides_of(scene, first + k)) sides.push_back(side);
-  if (pieces.size() == 1) {
-    found.insert(found.end(), sides.begin(), sides.end());
-    return;
-  }
+  for (std::uint32_t k = 0; k < pieces.size(); ++k) add_sides(scene, first + k, sides);
   // 1. Sides that are the same. A surface of several planes is triangles of all corners: they share nothing else.
   std::sort(sides.begin(), sides.end(), comes_before);
   for (std::size_t k = 0; k < sides.size();) {
@@ -108,7 +104,8 @@ std::vector<Scene_edge> scene_edges(const Scene& scene) {
   for (std::uint32_t first = 0; first < pieces.size();) {
     std::uint32_t end = first + 1;
     while (end < pieces.size() && pieces[end].face == pieces[first].face) ++end;
-    add_bounds_of_face(scene, pieces.subspan(first, end - first), first, sides);
+    if (end - first == 1) add_sides(scene, first, sides);
+    else add_bounds_of_face(scene, pieces.subspan(first, end - first), first, sides);
     first = end;
   }
   std::sort(sides.begin(), sides.end(), comes_before);

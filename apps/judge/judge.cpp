@@ -2,6 +2,7 @@
 
 #include "judge.h"
 
+#include "../support/files.h"
 #include "../support/shard.h"
 #include "broken.h"
 #include "kept.h"
@@ -32,14 +33,6 @@ void check_kept(const Judge_arguments& arguments) {
     for (const std::string& ending : Court::kept_endings(arguments.format))
       outputs.push_back({"--keep", (std::filesystem::path(arguments.keep) / (stem + ending)).string()});
   check_files(inputs, outputs);
-}
-
-/// Errors: std::runtime_error where there is none, and none can be made.
-void make_kept_folder(const std::string& folder) {
-  if (folder.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(folder + ": cannot be made (" + error.message() + "); name another folder");
 }
 
 /// What all cases are asked alike, by options' names. Programs are known by their files, too.
@@ -272,7 +265,7 @@ Exit run(Judge_arguments arguments) {
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
   if (!arguments.choice.ask.empty()) arguments.two_sided = groups.at(0).make(arguments.seed).query.two_sided;
   for (const std::string& output : {arguments.json, arguments.html}) check_replaceable(output);  // before the work
-  make_kept_folder(arguments.keep);
+  if (!arguments.keep.empty()) make_folder(arguments.keep);
   const Court court(arguments.court_options());
   const Shard own = shard_of(arguments.shard);
   std::optional<Kept_cases> kept;

@@ -1,6 +1,7 @@
 #include "certificates.h"
 
 #include "../methods/weak.h"
+#include "../support/files.h"
 
 #include <sightline/algorithms/levels/stated_cell.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
@@ -64,10 +65,7 @@ std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& le
 bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table,
                         const Time_limit& limit, Ranks& ranks) {
   const fs::path folder = arguments.certificates;
-  std::error_code error;
-  if (ranks.is_first()) fs::create_directories(folder, error);
-  if (error)
-    throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another folder");
+  if (ranks.is_first()) make_folder(folder);
   const Occluders occluders(level.scene());
   Progress progress("proving");
   std::vector<Cell_id> asked;

@@ -1,4 +1,5 @@
 #include "table_maker.h"
+#include "../support/files.h"
 
 #include <sightline/io/binary.h>
 #include <sightline/io/file.h>
@@ -147,10 +148,7 @@ void Table_maker::add_cells(Part& part, std::uint32_t shard, std::uint32_t shard
 
 fs::path Table_maker::kept_folder() const {
   const fs::path folder = arguments_.out + ".parts";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another --out");
+  make_folder(folder, "another --out");
   return folder;
 }
 

@@ -1,5 +1,6 @@
 // sightline report: speed against error, every question to every method and kernel, on families and real scenes.
 
+#include "../support/files.h"
 #include "../support/page.h"
 #include "answers.h"
 #include "examples.h"
@@ -42,9 +43,7 @@ void print(const report::Report& report) {
 
 void write(const Report_arguments& a, const report::Report& report) {
   if (!a.keep.empty()) {
-    std::error_code error;
-    fs::create_directories(a.keep, error);
-    if (error) throw std::runtime_error(a.keep + ": cannot be made (" + error.message() + "); name another folder");
+    make_folder(a.keep);
     for (const report::Example& e : report.examples) {
       const fs::path file = fs::path(a.keep) / e.file;
       write_file(file.string(), e.scene);

@@ -142,4 +142,12 @@ void watch_for_signals() {
     if (std::signal(number, end_by_signal_without_remains) == SIG_IGN) std::signal(number, SIG_IGN);
 }
 
+void make_folder(const fs::path& folder, std::string_view instead) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw std::runtime_error(
+        fmt::format("{}: cannot be made ({}); name {}", folder.string(), error.message(), instead));
+}
+
 }  // namespace sightline::app

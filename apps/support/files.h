@@ -27,6 +27,9 @@ void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_
 /// none, and none of those that are `made` on the way, or the output is a folder.
 void check_folders(const std::vector<Named_file>& outputs, const std::vector<std::string>& made);
 
+/// Makes a folder that is not there yet. Errors: std::runtime_error where none can be made, which says what to name.
+void make_folder(const std::filesystem::path& folder, std::string_view instead = "another folder");
+
 /// All bytes of an input. Errors: Input_error.
 std::string read_input(const std::string& name);
 /// The file that an input is: what "-" stands for has a name too.

@@ -79,6 +79,11 @@ std::optional<Interval> clipped(const std::vector<Level>& walls, const Exact_poi
   return std::nullopt;
 }
 
+/// Whether a point of a piece's plane is on the piece.
+bool is_within_walls(const Flat_piece& flat, const Exact_point& x) {
+  return std::all_of(flat.walls.begin(), flat.walls.end(), [&](const Level& wall) { return wall.height(x) >= 0; });
+}
+
 /// Whether the open segment from p to q meets a closed piece.
 bool blocks(const Flat_piece& flat, const Exact_point& p, const Exact_point& q) {
   const Rational from = flat.plane.height(p), to = flat.plane.height(q);
@@ -88,7 +93,7 @@ bool blocks(const Flat_piece& flat, const Exact_point& p, const Exact_point& q) 
   }
   if (from * to >= 0) return false;
   const Exact_point at = between(p, Rational(from / (from - to)), q);
-  return std::all_of(flat.walls.begin(), flat.walls.end(), [&](const Level& wall) { return wall.height(at) >= 0; });
+  return is_within_walls(flat, at);
 }
 bool is_sightline(const Flat_pieces& flats, const Exact_point& eye, const Exact_point& q) {
   return std::none_of(flats.begin(), flats.end(), [&](const Flat_piece& flat) { return blocks(flat, eye, q); });
@@ -192,7 +197,7 @@ Exact_point point_inside(const Exact_point& p, const Rational& from, const Ratio
 }
 
 /// Whether a point of an edge's line is on the edge: between its ends, or one of them.
-bool holds(const Exact_point& p, const Exact_point& q, const Exact_point& x) {
+bool is_on_edge(const Exact_point& p, const Exact_point& q, const Exact_point& x) {
   return is_zero(cross(minus(x, p), minus(q, p))) && dot(minus(x, p), minus(x, q)) <= 0;
 }
 
@@ -209,8 +214,8 @@ std::string flaw_of_bounds(const Scene& scene, const Flat_pieces& flats, const s
       const Points& c = flats[piece].corners;
       std::size_t sides = 0;
       for (std::size_t i = 0; i < c.size(); ++i)
-        sides += holds(c[i], c[(i + 1) % c.size()], scene.position(edge.p)) &&
-                 holds(c[i], c[(i + 1) % c.size()], scene.position(edge.q));
+        sides += is_on_edge(c[i], c[(i + 1) % c.size()], scene.position(edge.p)) &&
+                 is_on_edge(c[i], c[(i + 1) % c.size()], scene.position(edge.q));
       if (sides != 1) return name_of(scene, edges[k]) + " is on " + std::to_string(sides) + " sides of a piece";
       of_piece[piece].push_back(&edge);
     }
@@ -230,12 +235,12 @@ std::string flaw_of_bounds(const Scene& scene, const Flat_pieces& flats, const s
                  flats[other].corners.end();
         };
         if (planes_of[flats[i].face] > 1) return has(p) && has(q);
-        return std::all_of(flats[other].walls.begin(), flats[other].walls.end(),
-                           [&](const Level& wall) { return wall.height(x) >= 0; });
+        return is_within_walls(flats[other], x);
       };
       std::size_t inside = 0, listed = 0;
       for (std::size_t other = 0; other < flats.size(); ++other) inside += goes_on(other);
-      for (const Scene_edge* edge : of_piece[i]) listed += holds(scene.position(edge->p), scene.position(edge->q), x);
+      for (const Scene_edge* edge : of_piece[i])
+        listed += is_on_edge(scene.position(edge->p), scene.position(edge->q), x);
       const bool ends = planes_of[flats[i].face] > 1 ? inside != 1 : inside == 0;  // three may meet in one line
       if (listed != (ends ? 1u : 0u))
         return "of face " + std::to_string(flats[i].face) +
