@@ -17,9 +17,10 @@ inline constexpr Cell_id no_cell = ~Cell_id{0};
 
 /// What two cells have in common: a convex polygon, counterclockwise as seen from the cell in front.
 struct Cell_wall {
-  Cell_id front, behind;                         ///< `behind` is no_cell at the end of the world
-  std::vector<std::uint32_t> corners;            ///< points of Level_cells
-  std::vector<std::vector<std::uint32_t>> open;  ///< convex parts that no face covers; all of it in one where none does
+  Cell_id front, behind;               ///< `behind` is no_cell at the end of the world
+  std::vector<std::uint32_t> corners;  ///< points of Level_cells
+  /// Convex parts that no face covers; all of it in one where none does; none at the end of the world.
+  std::vector<std::vector<std::uint32_t>> open;
   std::vector<Face_id> faces_front, faces_behind;  ///< that cover some of it, and look into the cell in front, behind
 };
 

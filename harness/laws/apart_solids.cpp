@@ -110,10 +110,10 @@ std::string flaw_through(Random& random) {
 Check apart_solids_check() {
   return {"apart", "stars apart keep their faces, and one through a block leaves walls and two faces with a hole",
           [](const Posed_scene&, const Answer&, Random& random) {
-            if (!random.chance(1, 4)) return Outcome::not_applicable();
             const std::string flaw = random.chance(1, 2) ? flaw_apart(random) : flaw_through(random);
             return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
-          }};
+          },
+          4};
 }
 
 }  // namespace sightline::harness

@@ -248,9 +248,8 @@ Exact_point any_direction(const Posed_scene& posed, const std::vector<Flat_face>
 
 Check check_of_a_share(const char* name, const char* what, std::uint64_t share,
                        Outcome (*run)(const Posed_scene&, Random&)) {
-  return {name, what, [share, run](const Posed_scene& posed, const Answer&, Random& random) {
-            return random.chance(1, share) ? run(posed, random) : Outcome::not_applicable();
-          }};
+  return {name, what, [run](const Posed_scene& posed, const Answer&, Random& random) { return run(posed, random); },
+          share};
 }
 
 }  // namespace sightline::harness

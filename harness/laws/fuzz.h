@@ -60,7 +60,8 @@ std::optional<Disagreement> first_disagreement(const Subject& subject, const Pos
       if (!only.empty() && check.name != only) continue;
       at = check.name;
       Random random(seed * 64 + k);
-      const Outcome outcome = check.run(scene, answer, random);
+      const bool is_drawn = check.share == 1 || random.chance(1, check.share);
+      const Outcome outcome = is_drawn || !only.empty() ? check.run(scene, answer, random) : Outcome::not_applicable();
       if (outcome.state == Outcome::State::failed) return Disagreement{at, outcome.what};
       tell(at, outcome);
     }

@@ -62,7 +62,7 @@ Check manners_check(std::vector<Question> questions) {
   return {"manners", "the same by several threads, whatever is told of progress, and nothing once that gives up",
           [questions = std::move(questions)](const Posed_scene& posed, const Answer&, Random& random) {
             constexpr std::size_t most_faces = 40, of_a_crowd = 1200, of_a_pile = 48;
-            if (posed.soup.face_count() > most_faces || !random.chance(1, 8)) return Outcome::not_applicable();
+            if (posed.soup.face_count() > most_faces) return Outcome::not_applicable();
             const Question& question = questions[random.below(questions.size())];
             Posed_scene scene = posed;
             if (question.is_for_crowds && random.chance(1, 4))  // beside each other, or piled up
@@ -70,7 +70,8 @@ Check manners_check(std::vector<Question> questions) {
                                                : crowd(posed.soup, of_a_pile, generate::ratio(1, 50));
             const std::string flaw = flaw_of_manners(question, scene, random);
             return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
-          }};
+          },
+          8};
 }
 
 }  // namespace sightline::harness

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -210,6 +211,7 @@ Outcome check_pixels(const Posed_scene& posed, Random& random) {
   const std::vector<std::uint32_t> number = priorities(asked.traits, tree, view->eye);
   const Pixel_statistics found = pixel_statistics(sets, number);
   Pixel_statistics truth;
+  std::map<std::array<std::size_t, 2>, std::uint64_t> of_size;  // how many are pierced, and left
   for (std::uint32_t y = 0; y < view->height; ++y)
     for (std::uint32_t x = 0; x < view->width; ++x) {
       const std::size_t pixel = std::size_t{y} * view->width + x;
@@ -231,6 +233,7 @@ Outcome check_pixels(const Posed_scene& posed, Random& random) {
           if (s < t && number[i] > number[j])
             return Outcome::failed("by a tree's numbers the farther of " + pieces_named(i, j) + " is nearer");
       }
+      if (!members.empty()) ++of_size[{members.size(), left}];
       truth.covered += !members.empty();
       truth.several += members.size() >= 2;
       truth.single += left == 1;
@@ -241,6 +244,11 @@ Outcome check_pixels(const Posed_scene& posed, Random& random) {
   if (truth.covered != found.covered || truth.several != found.several || truth.single != found.single ||
       truth.faces != found.faces || truth.left != found.left || truth.image != found.image)
     return Outcome::failed("what is counted at pixels is not what is there");
+  std::map<std::array<std::size_t, 2>, std::uint64_t> counted;
+  for (std::size_t all = 0; all < found.by_size.size(); ++all)
+    for (std::size_t left = 0; left < found.by_size[all].size(); ++left)
+      if (found.by_size[all][left] > 0) counted[{all, left}] = found.by_size[all][left];
+  if (counted != of_size) return Outcome::failed("pixels by how much they pierce are not what is there");
   return {};
 }
 

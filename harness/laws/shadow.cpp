@@ -147,8 +147,7 @@ Check by_volume() {
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_faces = 12;
             constexpr int most_bits = 100;
-            if (!answer.planar || posed.soup.face_count() > most_faces || !random.chance(1, 2))
-              return Outcome::not_applicable();
+            if (!answer.planar || posed.soup.face_count() > most_faces) return Outcome::not_applicable();
             const Scene scene(posed.soup);
             if (scene.points().bits() > most_bits) return Outcome::not_applicable();
             const bool is_sun = random.chance(1, 2);
@@ -156,7 +155,8 @@ Check by_volume() {
             const std::string flaw = flaw_of(is_sun ? shadow_volume(scene, Sun{light}) : shadow_volume(scene, light),
                                              posed.soup, scene, light, is_sun, 6, random);
             return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
-          }};
+          },
+          2};
 }
 
 Check by_definition() {

@@ -46,6 +46,7 @@ struct Outcome {
 struct Check {
   std::string name, what;
   std::function<Outcome(const Posed_scene& scene, const Answer& answer, Random& random)> run;
+  std::uint64_t share = 1;  ///< it is run of one scene in so many, at random, where others are too
 };
 
 /// A command under test.

@@ -21,7 +21,7 @@ class Wall(NamedTuple):
     front: int  #: the cell in front
     behind: Optional[int]  #: the cell behind; None at the end of the world
     corners: Tuple[Point, ...]
-    open: Tuple[Tuple[Point, ...], ...]  #: convex parts that no face covers
+    open: Tuple[Tuple[Point, ...], ...]  #: convex parts that no face covers; none at the end of the world
     faces_front: Ids  #: that cover some of it, and look into the cell in front
     faces_behind: Ids
 

@@ -47,7 +47,7 @@ def axes_of(look: Any, up: Any, field: float, size: Tuple[int, int]) -> Axes:
     right = np.cross(to, upwards)
     length = np.linalg.norm(right)
     if not length > 1e-9 * np.linalg.norm(upwards):
-        raise ValueError(f"up is {up!r}, along the direction to look in; give another one")
+        raise ValueError(f"up is {up!r}, along the direction to look in, or so nearly that doubles do not tell; give another one")
     right = right / length
     half = math.tan(math.radians(field) / 2)
     return to, half * right, half * size[1] / size[0] * np.cross(right, to)

@@ -191,7 +191,7 @@ class Scene:
     ) -> View:
         """What is seen from a point, all around, or in a frustum; two_sided: faces seen from behind count as visible.
 
-        frustum: the directions of its edges, (k, 3), in their order around it, all within less than a half space.
+        frustum: the directions of its edges, (k, 3), counterclockwise as seen from the eye, all within less than a half space.
 
         >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
         >>> seen = lid.see((0, 0, 2))

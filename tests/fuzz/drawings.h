@@ -15,9 +15,11 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fuzz {
@@ -338,6 +340,25 @@ inline void table_in_parts(Random& random) {
 }
 
 /// The first bytes are a seed.
+/// A format is known by a name's ending, in upper or lower case; letters beside these are none.
+inline void by_ending(Random& random) {
+  static const std::vector<std::pair<std::string, Drawing_format>> known{{"obj", Drawing_format::obj},
+                                                                         {"ply", Drawing_format::ply},
+                                                                         {"glb", Drawing_format::glb},
+                                                                         {"vtp", Drawing_format::vtp},
+                                                                         {"vtu", Drawing_format::vtu}};
+  auto [ending, format] = known[random.below(known.size())];
+  for (char& c : ending)
+    if (random.chance(1, 2)) c = static_cast<char>(c - 'a' + 'A');
+  const bool is_wrong = random.chance(1, 3);
+  if (is_wrong) {
+    char& c = ending[random.below(ending.size())];
+    c = random.chance(1, 2) ? static_cast<char>(c ^ 64) : '_';
+  }
+  const std::optional<Drawing_format> found = drawing_format_of_ending("a.b/c." + ending);
+  require(found.has_value() != is_wrong && (is_wrong || *found == format), "formats are known by their endings");
+}
+
 inline void drawings(std::string_view bytes) {
   std::uint64_t seed = bytes.size();
   for (const char c : bytes.substr(0, 16)) seed = 31 * seed + static_cast<unsigned char>(c);
@@ -349,6 +370,7 @@ inline void drawings(std::string_view bytes) {
   in_vtk(sketch, true);
   in_glb(sketch);
   table_in_parts(random);
+  by_ending(random);
 }
 
 }  // namespace fuzz

@@ -2,6 +2,7 @@
 // The judge of other people's programs: its cases, grades, guesses and explanations are what their headers say, by
 // rationals, by sets, and by the library's own answers to the question as it is read.
 
+#include "judged_answers.h"
 #include "judged_cases.h"
 #include "judged_grades.h"
 #include "judged_guesses.h"
@@ -19,7 +20,7 @@ namespace fuzz {
 inline void judged(std::string_view bytes) {
   using namespace judged_laws;
   using Law = void (*)(generate::Random&);
-  static constexpr std::array<Law, 19> laws{try_case_of_a_family,
+  static constexpr std::array<Law, 22> laws{try_case_of_a_family,
                                             try_case_of_a_scene,
                                             try_grade_of_faces,
                                             try_grade_of_an_order,
@@ -37,7 +38,10 @@ inline void judged(std::string_view bytes) {
                                             try_why_not_in_order,
                                             try_why_not_met,
                                             try_rounded_source,
-                                            try_part_beside_its_plane};
+                                            try_part_beside_its_plane,
+                                            try_told_answer,
+                                            try_told_nothing,
+                                            try_flaw_of_solids};
   Bytes from(bytes);
   const std::size_t kind = from.below(laws.size());
   generate::Random random(from.word());

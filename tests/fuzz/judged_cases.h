@@ -195,6 +195,9 @@ inline void try_case_of_a_scene(Random& random) {
   if (posed.soup.face_count() == 0 || posed.soup.face_count() > most_faces) return;
   Case_options options = any_options(static_cast<Question>(random.below(5)), random);
   options.doubles = options.triangles = false;
+  if (random.chance(1, 64))
+    require(judge::case_of(Polygon_soup(), random.below(1000), options).soup.point_count() == 0,
+            "a case about nothing is one");
   const Case made = judge::case_of(posed.soup, random.below(1000), options);
   if (!made.not_asked.empty()) return;
   const std::array<Exact_point, 2> box = Scene(posed.soup).box();

@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <numeric>
@@ -224,6 +225,52 @@ inline void try_dealt_table(generate::Random& random) {
   require(is_refused<Merge_error>([&] { joined(twice, names); }) == !is_empty, "what is in two parts is refused");
   require(is_refused<Merge_error>([&] { merged(less, names); }) == (!is_empty || count == 1),
           "what is in no part is refused");
+  // 5. One that answers something else.
+  std::vector<Visibility_table> others = parts;
+  Visibility_table& other = others[chosen];
+  switch (random.below(4)) {
+    case 0: other.question += "?"; break;
+    case 1:
+      other.cells.flip();
+      other.rows.clear();
+      for (const bool is_asked : other.cells)
+        if (is_asked) other.rows.emplace_back();
+      break;
+    case 2: other.faces.push_back(true); break;
+    default: other.lower_cells.resize(has_cells ? 0 : cells);
+  }
+  require(is_refused<Merge_error>([&] { joined(others, names); }) == (count > 1),
+          "parts of other questions, cells, faces or pairs are refused");
+}
+
+/// Faces go round among shards, of which some are missing: those are named, where a part that is there has two faces.
+inline void try_missing_shards(generate::Random& random) {
+  const std::size_t shards = 1 + random.below(6), faces = random.below(3 * shards);
+  std::vector<Visibility_table> parts;
+  std::vector<std::string> names;
+  std::string missing;
+  bool is_told = false;
+  for (std::size_t s = 0; s < shards; ++s) {
+    Visibility_table part{"which see which", {true}, std::vector<bool>(faces), {{}}};
+    for (std::size_t f = s; f < faces; f += shards) part.faces[f] = true;
+    if (random.chance(2, 3)) {
+      is_told = is_told || s + shards < faces;
+      names.push_back("part " + std::to_string(s));
+      parts.push_back(std::move(part));
+    } else if (s < faces) {
+      missing += (missing.empty() ? "" : ", ") + std::to_string(s) + "/" + std::to_string(shards);
+    }
+  }
+  if (parts.empty()) return;
+  std::string said;
+  try {
+    merged(parts, names);
+  } catch (const Merge_error& error) {
+    said = error.what();
+  }
+  require(said.empty() == missing.empty(), "all faces are there iff no shard is missing");
+  if (is_told && !said.empty())
+    require(said.ends_with("run again --shard " + missing), "the shards that are missing are named");
 }
 
 // ---- Leaves
@@ -590,7 +637,12 @@ inline void try_repeated_materials(generate::Random& random) {
   static constexpr std::array<std::string_view, 4> names{"a", "b", "a b", "A"};
   // 1. Libraries.
   std::array<std::vector<Material>, 2> of_library;
+  std::array<std::string, 2> names_of_library;
   for (std::size_t library = 0; library < 2; ++library) {
+    const std::string number = std::to_string(library) + ".mtl";
+    std::filesystem::remove(folder.path / ("twice" + number));
+    std::filesystem::remove(folder.path / ("twice " + number));
+    names_of_library[library] = (random.chance(1, 3) ? "twice " : "twice") + number;
     std::string text;
     for (std::size_t k = 1 + random.below(4); k > 0; --k) {
       Material& material = of_library[library].emplace_back();
@@ -607,7 +659,7 @@ inline void try_repeated_materials(generate::Random& random) {
         }
       }
     }
-    std::ofstream(folder.path / ("twice" + std::to_string(library) + ".mtl")) << text;
+    std::ofstream(folder.path / names_of_library[library]) << text;
   }
   // 2. Faces.
   std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -618,9 +670,14 @@ inline void try_repeated_materials(generate::Random& random) {
   for (std::size_t k = random.below(10); k > 0 && !is_wrong; --k) {
     const std::uint64_t kind = known.empty() && random.chance(3, 4) ? 0 : random.below(3);
     if (kind == 0) {
+      // Both stand in one line only where no name has a blank.
       const std::size_t library = random.below(2);
-      obj += "mtllib twice" + std::to_string(library) + ".mtl\n";
+      const bool both = random.chance(1, 3);
+      obj += "mtllib " + names_of_library[library] + (both ? "  " + names_of_library[1 - library] : "") + "\n";
       for (const Material& material : of_library[library]) known.try_emplace(material.name, material);
+      if (both)
+        for (const Material& material : of_library[1 - library]) known.try_emplace(material.name, material);
+      is_wrong = both && (names_of_library[0] + names_of_library[1]).find(' ') != std::string::npos;
     } else if (kind == 1) {
       const std::string_view name = names[random.below(names.size())];
       const auto found = known.find(name);
@@ -636,7 +693,8 @@ inline void try_repeated_materials(generate::Random& random) {
   std::ofstream(folder.path / "twice.obj") << obj;
   std::vector<std::optional<Material>> found;
   const bool refused = is_refused<Input_error>([&] { found = read_materials(folder.path / "twice.obj"); });
-  require(refused == is_wrong, "a material is refused iff no library so far has it");
+  require(refused == is_wrong,
+          "a material is refused iff no library so far has it, a library where there is no file of it");
   if (refused) return;
   const auto same = [](const std::optional<Material>& a, const std::optional<Material>& b) {
     return a.has_value() == b.has_value() &&
@@ -701,7 +759,7 @@ inline void rare_files(std::string_view bytes) {
   if (kind == 4) return try_ply_forms(random, true);
   switch (kind % 8) {
     case 0: return try_fingerprints(random);
-    case 1: return try_dealt_table(random);
+    case 1: return random.chance(1, 4) ? try_missing_shards(random) : try_dealt_table(random);
     case 2: return try_rows_of_leaves(random);
     case 3: return try_many_nodes(random, false);
     case 4: return try_far_brush(random);

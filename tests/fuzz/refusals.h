@@ -22,17 +22,6 @@
 
 namespace fuzz {
 
-/// Whether it throws such an error, and nothing else.
-template <class Error, class Run>
-bool is_refused(Run run) {
-  try {
-    run();
-  } catch (const Error&) {
-    return true;
-  }
-  return false;
-}
-
 // ---- Sources
 
 using Loop_point = std::array<Rational, 2>;

@@ -13,17 +13,6 @@
 
 namespace fuzz {
 
-/// What a check says of a scene. One that asks a share of the scenes is asked until it answers, or so often.
-inline harness::Outcome asked(const harness::Check& check, const Posed_scene& scene, const harness::Answer& answer,
-                              std::uint64_t seed, std::uint64_t times) {
-  harness::Outcome outcome = harness::Outcome::not_applicable();
-  for (std::uint64_t k = 0; k < times && outcome.state == harness::Outcome::State::not_applicable; ++k) {
-    Random random(seed + k);
-    outcome = check.run(scene, answer, random);
-  }
-  return outcome;
-}
-
 inline void scene_laws(std::string_view bytes) {
   static const std::vector<harness::Subject> subjects{harness::order(), harness::graph(), harness::cutset()};
   static const std::set<std::string> meant{
@@ -49,7 +38,8 @@ inline void scene_laws(std::string_view bytes) {
   if (!answer.flaw.empty()) throw Finding(subject.name + ": " + answer.flaw);
   for (const harness::Check& check : subject.checks) {
     if (meant.count(check.name) == 0) continue;
-    const harness::Outcome outcome = asked(check, scene, answer, random.below(1u << 30), 400);
+    Random own(random.below(1u << 30));
+    const harness::Outcome outcome = check.run(scene, answer, own);
     if (outcome.state == harness::Outcome::State::failed)
       throw Finding(subject.name + ", " + check.name + ": " + outcome.what);
   }

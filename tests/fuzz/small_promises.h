@@ -22,6 +22,7 @@
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/kernel/quoted.h>
 #include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/face_graph.h>
@@ -37,10 +38,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -546,12 +549,39 @@ inline void try_units_of_a_prime(generate::Random& random) {
   require(counted[0] == counted[1], "a result has the same faces, edges and points in whatever order faces are given");
 }
 
+/// A token in a message: its first forty bytes, what is no printable ASCII in hexadecimal, and whether that is all.
+inline void try_quoted(generate::Random& random) {
+  std::string token(random.chance(1, 2) ? 38 + random.below(5) : random.below(60), ' ');
+  for (char& c : token) c = static_cast<char>(random.chance(2, 3) ? random.between(33, 126) : random.between(0, 255));
+  std::string expected;
+  for (const char c : token.substr(0, 40)) {
+    std::array<char, 5> code{};
+    std::snprintf(code.data(), code.size(), "\\x%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    expected += c >= ' ' && c < 127 ? std::string(1, c) : std::string(code.data());
+  }
+  if (token.size() > 40) expected += "...";
+  require(sightline::quoted(token) == '"' + expected + '"',
+          "a token is quoted on one line, and says whether that is all of it");
+}
+
 inline void small_promises(std::string_view bytes) {
-  static constexpr std::array<void (*)(generate::Random&), 16> laws{
-      try_mirrored_stars,   try_both_orders, try_exact_planes,     try_boxes_on_a_segment,
-      try_units_of_a_prime, try_roots,       try_nearest_doubles,  try_rounded_planes,
-      try_common_inside,    try_motions,     try_straight_corners, try_fins,
-      try_repeated_faces,   try_stars,       try_fine_origins,     try_seen_from_within};
+  static constexpr std::array<void (*)(generate::Random&), 17> laws{try_mirrored_stars,
+                                                                    try_both_orders,
+                                                                    try_exact_planes,
+                                                                    try_boxes_on_a_segment,
+                                                                    try_units_of_a_prime,
+                                                                    try_roots,
+                                                                    try_nearest_doubles,
+                                                                    try_rounded_planes,
+                                                                    try_common_inside,
+                                                                    try_motions,
+                                                                    try_straight_corners,
+                                                                    try_fins,
+                                                                    try_repeated_faces,
+                                                                    try_stars,
+                                                                    try_fine_origins,
+                                                                    try_seen_from_within,
+                                                                    try_quoted};
   Bytes from(bytes);
   const auto law = laws[from.below(laws.size())];
   generate::Random random(from.word());

@@ -36,8 +36,7 @@ inline std::vector<harness::Check> own_checks(const harness::Subject& subject) {
   return own;
 }
 
-/// One of a subject's own checks, of a scene of a family. One that asks a share of the scenes is asked up to 24 times,
-/// and may then not have answered.
+/// One of a subject's own checks, of a scene of a family, also one that asks a share of the scenes.
 inline void ask_a_law(const harness::Subject& subject, std::string_view bytes) {
   constexpr std::size_t most_faces = 24;
   Bytes from(bytes);
@@ -46,7 +45,8 @@ inline void ask_a_law(const harness::Subject& subject, std::string_view bytes) {
   if (scene.soup.face_count() > most_faces || (subject.wants_source && scene.source.empty())) return;
   const std::vector<harness::Check> checks = own_checks(subject);
   const harness::Check& check = checks[random.below(checks.size())];
-  const harness::Outcome outcome = asked(check, scene, subject.answer(scene), random.below(1u << 30), 24);
+  Random own(random.below(1u << 30));
+  const harness::Outcome outcome = check.run(scene, subject.answer(scene), own);
   if (outcome.state == harness::Outcome::State::failed)
     throw Finding(subject.name + ", " + check.name + ": " + outcome.what);
 }

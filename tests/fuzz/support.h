@@ -21,6 +21,17 @@ inline void require(bool holds, const char* law) {
   if (!holds) throw Finding(law);
 }
 
+/// Whether it throws such an error, and nothing else.
+template <class Error, class Run>
+bool is_refused(Run run) {
+  try {
+    run();
+  } catch (const Error&) {
+    return true;
+  }
+  return false;
+}
+
 /// Numbers from bytes; zeros when these are used up.
 class Bytes {
  public:

@@ -21,6 +21,7 @@
 #include "forged.h"
 #include "grid.h"
 #include "judged.h"
+#include "kept_files.h"
 #include "light_work.h"
 #include "limits.h"
 #include "measures.h"
@@ -104,6 +105,7 @@ inline const std::vector<Target>& targets() {
                                        {"sure_doubles", sure_doubles, {}},
                                        {"small_promises", small_promises, {}},
                                        {"rare_files", rare_files, {}},
+                                       {"kept_files", kept_files, {}},
                                        {"one_edge", one_edge, {}},
                                        {"cell_proofs", cell_proofs, {}},
                                        {"light_work", light_work, {}},

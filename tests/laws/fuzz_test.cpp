@@ -8,6 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+#include <utility>
+
 namespace {
 
 using namespace sightline;
@@ -146,6 +149,27 @@ TEST(First_disagreement, runs_the_named_check_alone_and_each_with_numbers_of_its
   EXPECT_NE(drawn[0], drawn[1]) << "by check";
   EXPECT_NE(drawn[0], drawn[2]) << "by seed";
   EXPECT_EQ(drawn[0], drawn[3]);
+}
+
+TEST(First_disagreement, runs_a_check_of_a_share_on_that_share_and_the_same_way_where_it_is_named) {
+  std::map<std::uint64_t, std::uint64_t> drawn;  // by seed
+  std::uint64_t seed = 0;
+  harness::Subject subject;
+  subject.answer = all_alike;
+  subject.checks.push_back({"first", "",
+                            [&](const Posed_scene&, const Answer&, generate::Random& random) {
+                              drawn[seed] = random.below(std::uint64_t{1} << 60);
+                              return Outcome{};
+                            },
+                            4});
+  const Posed_scene scene = scene_of({generate::rectangle(0, 1, 0, 1, 0)});
+  for (seed = 0; seed < 400; ++seed) EXPECT_FALSE(harness::first_disagreement(subject, scene, seed));
+  EXPECT_GT(drawn.size(), 60u);
+  EXPECT_LT(drawn.size(), 140u);
+  const auto before = std::exchange(drawn, {});
+  for (seed = 0; seed < 400; ++seed) EXPECT_FALSE(harness::first_disagreement(subject, scene, seed, "first"));
+  EXPECT_EQ(drawn.size(), 400u);
+  for (const auto& [of, number] : before) EXPECT_EQ(drawn[of], number);
 }
 
 // ---- Making scenes small
