@@ -602,6 +602,7 @@ inline void try_coordinates(Random& random) {
   struct List {
     Coordinates numbers;
     std::vector<Rational> pushed;
+    std::size_t narrow = 0;  // at least: numerators of 64 bits
   };
   const auto mantissa = [&] {
     const auto any = static_cast<std::int64_t>(random.below(std::uint64_t{1} << random.below(63)));
@@ -625,6 +626,7 @@ inline void try_coordinates(Random& random) {
       if (random.chance(1, 4)) denominator = 1 + static_cast<std::int64_t>(random.below(1000));
       Rational ratio{Integer(static_cast<long>(m)), Integer(static_cast<long>(denominator))};
       ratio.canonicalize();
+      ++list.narrow;
       if (kind == 3) list.numbers.push_ratio(m, denominator);
       else list.numbers.push(ratio);
       list.pushed.push_back(ratio);
@@ -635,6 +637,10 @@ inline void try_coordinates(Random& random) {
     for (std::size_t k = random.below(24); k > 0; --k) push(list);
   lists[0].numbers.append(lists[1].numbers);
   lists[0].pushed.insert(lists[0].pushed.end(), lists[1].pushed.begin(), lists[1].pushed.end());
+  std::size_t counted = 0;
+  for (const auto& [denominator, uses] : lists[0].numbers.denominators()) counted += uses;
+  require(lists[0].narrow + lists[1].narrow <= counted && counted <= lists[0].pushed.size(),
+          "denominators are counted for numerators of 64 bits");
   require(lists[0].numbers.size() == lists[0].pushed.size(), "a list has as many numbers as were pushed");
   Integer common = 1;
   for (std::size_t k = 0; k < lists[0].pushed.size(); ++k) {

@@ -178,6 +178,38 @@ inline void try_rays_where_doubles_end(generate::Random& random) {
           "a ray from far away meets what it meets by definition");
 }
 
+/// A ray in doubles past the edge of a square, or on it, in a scene that is up to 2^160 times as large, and beyond
+/// doubles: what is said of it is what is said of its exact numbers.
+inline void try_rays_in_large_scenes(generate::Random& random) {
+  const int power = static_cast<int>(random.between(-30, 1018));
+  const double half = std::ldexp(static_cast<double>(random.between(1, 7)), power);
+  const Rational large =
+      generate::integer(random, 1, 7) * generate::power_of_two(power + static_cast<int>(random.between(0, 160)));
+  Polygon_soup soup;
+  const auto corner = [&](const Rational& x, const Rational& y, const Rational& z) { return soup.add_point(x, y, z); };
+  const Rational s = exact(half);
+  soup.add_face(std::vector<Point_id>{corner(-s, -s, 0), corner(s, -s, 0), corner(s, s, 0), corner(-s, s, 0)});
+  for (const Rational& x : {Rational(-large), large})
+    soup.add_face(std::vector<Point_id>{corner(x, -large, -large), corner(x, large, -large), corner(x, -large, large)});
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  const double step = std::ldexp(static_cast<double>(random.between(-1, 1)), -static_cast<int>(random.between(8, 52)));
+  Double_ray ray;
+  ray.origin = {half * (1 + step), half * std::ldexp(static_cast<double>(random.between(-4, 4)), -2), -half};
+  ray.direction = {0, 0, std::ldexp(1.0, static_cast<int>(random.between(-600, 600)))};
+  Ray_counters counters;
+  const Ray_start start = random.chance(1, 2) ? Ray_start::open : Ray_start::closed;
+  const std::vector<Face_hit> first = tracer.first(ray.exact(), start, counters);
+  const Ray_tracer::Nearest nearest = tracer.nearest(ray, start, counters);
+  require(first.empty() == (nearest.face == Ray_tracer::Nearest::nothing),
+          "a ray in doubles meets something iff it does");
+  if (first.empty()) return;
+  require(nearest.face == first[0].face && nearest.side == first[0].side, "a ray in doubles meets what it meets first");
+  require((!std::isfinite(nearest.low) || exact(nearest.low) <= first[0].t) &&
+              (!std::isfinite(nearest.high) || first[0].t <= exact(nearest.high)),
+          "a ray in doubles meets it between its bounds");
+}
+
 // ---- Cuts of what is large
 
 /// A bisector goes across the longer one of two polygons, however large they are; beyond doubles there may be none.
@@ -277,9 +309,9 @@ inline void try_nearest_faces(generate::Random& random) {
 }
 
 inline void sure_doubles(std::string_view bytes) {
-  static constexpr std::array<void (*)(generate::Random&), 8> laws{
-      try_rays_where_doubles_end, try_bisector,     try_near_shaft, try_near_shaft,
-      try_chart_bounds,           try_chart_bounds, try_flat_views, try_nearest_faces};
+  static constexpr std::array<void (*)(generate::Random&), 9> laws{
+      try_rays_where_doubles_end, try_bisector,   try_near_shaft,    try_near_shaft,          try_chart_bounds,
+      try_chart_bounds,           try_flat_views, try_nearest_faces, try_rays_in_large_scenes};
   Bytes from(bytes);
   const auto law = laws[from.below(laws.size())];
   generate::Random random(from.word());

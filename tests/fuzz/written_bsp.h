@@ -51,10 +51,14 @@ struct Written_level {
     lump_models
   };
 
-  explicit Written_level(generate::Random& random) {
+  /// `has_tree`: nodes and leaves.
+  explicit Written_level(generate::Random& random, bool has_tree = true) {
     put_faces(random);
-    put_leaves(random);
-    put_nodes(random);
+    put_planes();
+    if (has_tree) {
+      put_leaves(random);
+      put_nodes(random);
+    }
     for (std::size_t k = 0; k < 9; ++k) lump[lump_models].put(0.0f);
     lump[lump_models].put(root);
     for (std::size_t k = 0; k < 3; ++k) lump[lump_models].put(std::int32_t{0});
@@ -165,15 +169,18 @@ struct Written_level {
     }
   }
 
-  /// A tree whose leaves are any of those that there are.
-  void put_nodes(generate::Random& random) {
-    const auto a_leaf = [&] { return -1 - static_cast<std::int32_t>(random.below(contents.size())); };
-    const std::size_t count = random.below(5);
+  void put_planes() {
     for (std::size_t k = 0; k < 2; ++k) {
       for (std::size_t i = 0; i < 3; ++i) lump[lump_planes].put(static_cast<float>(k == i));
       lump[lump_planes].put(static_cast<float>(k));
       lump[lump_planes].put(std::uint32_t{0});
     }
+  }
+
+  /// A tree whose leaves are any of those that there are.
+  void put_nodes(generate::Random& random) {
+    const auto a_leaf = [&] { return -1 - static_cast<std::int32_t>(random.below(contents.size())); };
+    const std::size_t count = random.below(5);
     root = count == 0 ? a_leaf() : 0;
     for (std::size_t n = 0; n < count; ++n) children.push_back({a_leaf(), a_leaf()});
     for (std::size_t n = 1; n < count; ++n)  // below the one before it
@@ -230,8 +237,9 @@ inline bool spoil(std::string& file, const Written_level& written, generate::Ran
   else if (kind == 5 && has(Level::lump_nodes)) level.set(begin[Level::lump_nodes] + 4, std::int16_t{5});
   else if (kind == 6 && has(Level::lump_nodes)) level.set(begin[Level::lump_nodes] + 6, std::int16_t{-100});
   else if (kind == 7 && has(Level::lump_nodes)) level.set(begin[Level::lump_nodes] + 4, std::int16_t{0});  // the root
-  else if (kind == 8) level.set(begin[Level::lump_leaves] + 22, std::uint16_t{9999});
-  else if (kind == 9) level.set(begin[Level::lump_models] + 52, static_cast<std::int32_t>(written.marked.size()));
+  else if (kind == 8 && has(Level::lump_leaves)) level.set(begin[Level::lump_leaves] + 22, std::uint16_t{9999});
+  else if (kind == 9 && has(Level::lump_leaves))
+    level.set(begin[Level::lump_models] + 52, static_cast<std::int32_t>(written.marked.size()));
   else if (kind == 10) level.set(begin[Level::lump_models] + 60, std::int32_t{9999});
   else if (kind == 11 && written.visible_leaves > 0 && has(Level::lump_visibility))
     level.set(begin[Level::lump_leaves] + 28 + 4,
@@ -243,7 +251,8 @@ inline bool spoil(std::string& file, const Written_level& written, generate::Ran
 
 /// Marks of a leaf that are no faces of the world are passed over; a leaf without a row sees all.
 inline void try_level(generate::Random& random) {
-  Written_level written(random);
+  const bool has_tree = random.chance(15, 16);
+  Written_level written(random, has_tree);
   std::string file = written.file(random);
   if (random.chance(1, 2) && spoil(file, written, random)) {
     require(is_refused<Input_error>([&] {
@@ -254,6 +263,7 @@ inline void try_level(generate::Random& random) {
   }
   const Input input{"written", file};
   check_level(read_quake_level(input), written, written.rows);
+  if (!has_tree) return;
   std::vector<std::vector<bool>> rows = written.rows;
   for (std::vector<bool>& row : rows)
     for (std::size_t m = 0; m < row.size(); ++m) row[m] = random.chance(1, 3);
