@@ -201,6 +201,16 @@ std::optional<Pixel_view> any_view(const Posed_scene& posed, const std::vector<F
   return view;
 }
 
+/// Whether a direction is another one but for a few roundings of doubles.
+bool is_rounded(const Exact_point& direction, const Exact_point& exactly, const Pixel_view& view) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational size = abs(exact(view.look[k])) + abs(exact(view.right[k])) + abs(exact(view.up[k]));
+    if (abs(direction[k] - exactly[k]) > size * generate::power_of_two(-48) + generate::power_of_two(-1060))
+      return false;
+  }
+  return true;
+}
+
 Outcome check_pixels(const Posed_scene& posed, Random& random) {
   const Asked_scene asked(posed);
   if (asked.faces.empty()) return Outcome::not_applicable();
@@ -217,6 +227,8 @@ Outcome check_pixels(const Posed_scene& posed, Random& random) {
       const std::size_t pixel = std::size_t{y} * view->width + x;
       const std::array<double, 3> d = view->ray(x, y);
       const Exact_point direction{exact(d[0]), exact(d[1]), exact(d[2])};
+      if (!is_rounded(direction, view->centre(x, y), *view))
+        return Outcome::failed("pixel " + std::to_string(x) + ", " + std::to_string(y) + " looks elsewhere");
       std::vector<Depth_of_face> pierced;
       for (std::uint32_t i = 0; i < asked.faces.size(); ++i)
         if (const auto t = pierced_at(asked.faces[i], view->eye, direction)) pierced.emplace_back(*t, i);

@@ -226,7 +226,7 @@ inline void try_told_nothing(Random& random) {
 }
 
 /// A box, perhaps with one in it, in that again one, and one beside: a solid where fronts look away from what is inside
-/// and all boxes have their faces, else none.
+/// and all boxes have their faces, once, else none.
 struct Boxes {
   Polygon_soup soup;
   bool is_solid = true;
@@ -234,8 +234,9 @@ struct Boxes {
   explicit Boxes(Random& random) {
     const bool has_flaw = random.chance(1, 2);
     const auto add = [&](std::int64_t low, std::int64_t size, bool is_hollow) {
-      const bool is_open = has_flaw && random.chance(1, 6), is_turned = has_flaw && random.chance(1, 4);
-      is_solid = is_solid && !is_open && !is_turned;
+      const bool is_open = has_flaw && random.chance(1, 6), is_turned = has_flaw && random.chance(1, 4),
+                 is_twice = has_flaw && random.chance(1, 6);
+      is_solid = is_solid && !is_open && !is_turned && !is_twice;
       const generate::Points top{exact_point(low, low, low + size), exact_point(low + size, low, low + size),
                                  exact_point(low + size, low + size, low + size),
                                  exact_point(low, low + size, low + size)};
@@ -245,7 +246,7 @@ struct Boxes {
       for (Face_id face = is_open ? 1 : 0; face < box.face_count(); ++face) {
         generate::Points corners;
         for (const Point_id p : box.loop(face, 0)) corners.push_back(box.point(p));
-        soup.add_face(generate::added(soup, corners));
+        for (int times = is_twice ? 2 : 1; times > 0; --times) soup.add_face(generate::added(soup, corners));
       }
     };
     add(0, 12, false);
