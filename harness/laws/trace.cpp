@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -338,13 +339,7 @@ Check in_doubles() {
                 const Ray_start start = starts[random.below(2)];
                 const std::vector<Face_hit> exact = tracer.first(ray.exact(), start, counters);
                 const Ray_tracer::Nearest near = tracer.nearest(ray, start, counters);
-                const bool right = exact.empty()
-                                       ? near.face == Ray_tracer::Nearest::nothing
-                                       : near.face == exact[0].face && near.side == exact[0].side &&
-                                             near.tied == (exact.size() > 1) &&
-                                             (!std::isfinite(near.low) || sightline::exact(near.low) <= exact[0].t) &&
-                                             (!std::isfinite(near.high) || exact[0].t <= sightline::exact(near.high));
-                if (!right)
+                if (!is_first(near, exact))
                   return Outcome::failed("ray " + text_of(ray.exact()) + ": " + text_of(exact) +
                                          " is met, in doubles face " + std::to_string(near.face));
               }
@@ -406,6 +401,13 @@ Answer labels(const Posed_scene& posed) {
 }
 
 }  // namespace trace_subject
+
+bool is_first(const Ray_tracer::Nearest& near, const std::vector<Face_hit>& first) {
+  if (first.empty()) return near.face == Ray_tracer::Nearest::nothing;
+  return near.face == first[0].face && near.side == first[0].side && near.tied == (first.size() > 1) &&
+         (!std::isfinite(near.low) || exact(near.low) <= first[0].t) &&
+         (!std::isfinite(near.high) || first[0].t <= exact(near.high));
+}
 
 std::vector<Face_hit> hits_by_definition(const Polygon_soup& soup, const Scene& scene, const Exact_ray& ray,
                                          Ray_start start) {

@@ -55,17 +55,23 @@ class Folder_model {
     return std::nullopt;
   }
   std::shared_ptr<File> file_of(const std::string& name) const {
-    const std::optional<std::string> target = behind(name);
-    const auto found = target ? entries.find(*target) : entries.end();
-    return found == entries.end() ? nullptr : found->second.file;
+    const Entry* const entry = entry_of(name);
+    return entry ? entry->file : nullptr;
   }
   bool is_folder(const std::string& name) const {
-    const std::optional<std::string> target = behind(name);
-    const auto found = target ? entries.find(*target) : entries.end();
-    return found != entries.end() && found->second.file == nullptr;
+    const Entry* const entry = entry_of(name);
+    return entry && !entry->file;
   }
   /// Kept is a file as long as the name that it was read by is still its own.
   bool is_kept(const File& file) const { return file.read_by && file_of(*file.read_by).get() == &file; }
+
+ private:
+  /// What a name leads to; null where there is nothing, or a circle.
+  const Entry* entry_of(const std::string& name) const {
+    const std::optional<std::string> target = behind(name);
+    const auto found = target ? entries.find(*target) : entries.end();
+    return found == entries.end() ? nullptr : &found->second;
+  }
 };
 
 /// A walk through what may be done with files of one folder, held to the model after each step.
@@ -194,7 +200,7 @@ class File_walk {
   /// Whether a file of that name can be written: no folder, no circle of links, no file that is kept.
   bool is_writable(const std::string& name) const {
     const std::shared_ptr<Folder_model::File> file = model_.file_of(name);
-    return model_.behind(name) && !model_.is_folder(name) && !(file && model_.keeps && model_.is_kept(*file));
+    return model_.behind(name) && !model_.is_folder(name) && !(file && model_.is_kept(*file));
   }
 
   void write(const std::string& name) {

@@ -201,13 +201,7 @@ inline void try_rays_in_large_scenes(generate::Random& random) {
   const Ray_start start = random.chance(1, 2) ? Ray_start::open : Ray_start::closed;
   const std::vector<Face_hit> first = tracer.first(ray.exact(), start, counters);
   const Ray_tracer::Nearest nearest = tracer.nearest(ray, start, counters);
-  require(first.empty() == (nearest.face == Ray_tracer::Nearest::nothing),
-          "a ray in doubles meets something iff it does");
-  if (first.empty()) return;
-  require(nearest.face == first[0].face && nearest.side == first[0].side, "a ray in doubles meets what it meets first");
-  require((!std::isfinite(nearest.low) || exact(nearest.low) <= first[0].t) &&
-              (!std::isfinite(nearest.high) || first[0].t <= exact(nearest.high)),
-          "a ray in doubles meets it between its bounds");
+  require(harness::is_first(nearest, first), "a ray in doubles meets what it meets first, between its bounds");
 }
 
 // ---- Cuts of what is large
