@@ -189,6 +189,13 @@ Outcome by_method(const Seen& seen) {
               ties);
 }
 
+/// Polygons sorted, compared and cut: in exact numbers there is a cut wherever one is needed.
+Outcome by_newell(const Seen& seen) {
+  const Newell_order order = newell_order(seen.scene, seen.pixels, Image_kernel::exact, serial());
+  if (order.counters.unordered != 0) return Outcome::failed("polygons are painted without an order");
+  return by_method<newell, false>(seen);
+}
+
 /// The heedless painters, by their words: of the pieces that a centre's ray meets the one whose key comes last is on
 /// top. At some pixels.
 Outcome heedless(const Seen& seen) {
@@ -389,7 +396,7 @@ Subject render() {
       check_of("bsp", "the tree's fragments, painted, show what exact rays do", by_order<tree_order>),
       check_of("graph", "faces in the order of the priority graph, painted, show what exact rays do",
                by_order<graph_order>),
-      check_of("newell", "polygons sorted, compared and cut show what exact rays do", by_method<newell, false>),
+      check_of("newell", "polygons sorted, compared and cut show what exact rays do", by_newell),
       check_of("scan_line", "spans of rows show what exact rays do", by_method<scan_line>),
       check_of("warnock", "windows cut into four show what exact rays do", by_method<warnock>),
       check_of("weiler_atherton", "windows cut along the nearest polygon's edges show what see does",

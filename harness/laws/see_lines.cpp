@@ -4,6 +4,7 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/point_visibility/visible_region.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/kernel/vectors.h>
 
@@ -267,10 +268,27 @@ std::string flaw_of_parts(const Scene& scene, const std::vector<Drawn_edge>& edg
   return {};
 }
 
+/// That edges are of the kind that the pieces make them that they bound.
+std::string flaw_of_kinds(const Scene& scene, const Flat_pieces& flats, const std::vector<Drawn_edge>& edges,
+                          const Exact_point& eye) {
+  for (const Drawn_edge& drawn : edges) {
+    const std::vector<std::uint32_t>& pieces = drawn.edge.pieces;
+    const auto in_front = static_cast<std::size_t>(std::count_if(
+        pieces.begin(), pieces.end(), [&](std::uint32_t piece) { return flats[piece].plane.height(eye) > 0; }));
+    Edge_class kind = Edge_class::crease;
+    if (pieces.size() == 1) kind = Edge_class::boundary;
+    else if (in_front > 0 && in_front < pieces.size()) kind = Edge_class::silhouette;
+    else if (pieces.size() == 2 && flats[pieces[0]].is_in_plane_of(flats[pieces[1]])) kind = Edge_class::smooth;
+    if (drawn.kind != kind) return name_of(scene, drawn) + " is said to be of another kind";
+  }
+  return {};
+}
+
 Outcome check_edges(const Looked& looked, const Flat_pieces& flats, const Exact_point& eye, Random& random) {
   const std::vector<Drawn_edge> edges = looked.edges();
   for (const std::string& flaw :
-       {flaw_of_bounds(looked.scene, flats, edges, random), flaw_of_parts(looked.scene, edges, eye)})
+       {flaw_of_bounds(looked.scene, flats, edges, random), flaw_of_parts(looked.scene, edges, eye),
+        flaw_of_kinds(looked.scene, flats, edges, eye)})
     if (!flaw.empty()) return Outcome::failed(flaw);
   for (const Drawn_edge& drawn : edges) {
     const Exact_point p = looked.scene.position(drawn.edge.p), q = looked.scene.position(drawn.edge.q);
@@ -439,6 +457,59 @@ Segments within(const std::vector<Drawn_crossing>& drawn, const std::vector<Leve
   return found;
 }
 
+/// A cone cut by planes through the eye and edges of the scene, or along an axis.
+Cones<Exact_view> cut_apart(const Exact_view& view, Cones<Exact_view> cones, Random& random) {
+  Predicate_counts counts;
+  for (std::uint64_t cuts = 1 + random.below(3); cuts > 0; --cuts) {
+    const std::size_t points = view.scene().points().size();
+    const auto p = static_cast<std::uint32_t>(random.below(points)),
+               q = static_cast<std::uint32_t>(random.below(points)), axis = static_cast<std::uint32_t>(random.below(3));
+    const bool by_axis = p == q || random.chance(1, 4);
+    const Exact_view::Plane w = by_axis ? view.axis(axis) : view.edge(p, q);
+    Cones<Exact_view> parts;
+    for (const auto& cone : cones) {
+      const auto reaches = [&](Sign side) {
+        return std::any_of(cone.rays.begin(), cone.rays.end(),
+                           [&](const Exact_view::Ray& r) { return view.side(w, r, counts) == side; });
+      };
+      if (!reaches(CGAL::POSITIVE) || !reaches(CGAL::NEGATIVE)) parts.push_back(cone);
+      else
+        for (const auto& part : visible_detail::cut(view, cone, w, counts)) parts.push_back(part);
+    }
+    cones = std::move(parts);
+  }
+  return cones;
+}
+
+/// A view's field in parts of any shape, all of them or one: lines in them are those in all of it.
+Outcome check_parts_of_field(const Looked& whole, const Looked& part, const std::vector<Level>& field, Random& random) {
+  if (whole.scene.pieces().empty()) return {};
+  Cones<Exact_view> cones = cut_apart(part.view, field_of_view(part.view), random);
+  std::vector<Level> sides = field;
+  if (random.chance(1, 2)) {
+    cones = {cones[random.below(cones.size())]};
+    sides.clear();
+    for (const Exact_view::Plane& w : cones[0].sides) {
+      const std::array<Integer, 3> n = part.view.normal(w);
+      const Exact_point normal{Rational(n[0]), Rational(n[1]), Rational(n[2])};
+      sides.push_back({normal, dot(normal, part.view.eye())});
+    }
+  }
+  Visible_options serial;
+  serial.threads = 1;
+  const Visible_surface<Exact_view> surface = visible_surface(part.view, part.boxes, std::move(cones), serial);
+  const std::vector<Drawn_edge> all = whole.edges(), some = hidden_lines(part.view, surface, 1);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Exact_point p = whole.scene.position(all[k].edge.p), q = whole.scene.position(all[k].edge.q);
+    const std::optional<Interval> range = clipped(sides, p, q, {0, 1});
+    if ((range ? visible_in(all[k].parts, *range) : std::vector<Interval>()) != visible_in(some[k].parts, {0, 1}))
+      return Outcome::failed(name_of(whole.scene, all[k]) + " is not visible in parts of the field as it is without");
+  }
+  if (within(whole.crossings(), sides) != within(visible_crossings(part.view, surface, part.boxes, 1), sides))
+    return Outcome::failed("lines where faces cross are not those in parts of the field as without");
+  return {};
+}
+
 Outcome check_field(const Posed_scene& posed, Random& random) {
   std::vector<Exact_point> rays = any_field(posed, random);
   if (random.chance(1, 16)) std::reverse(rays.begin(), rays.end());
@@ -463,7 +534,7 @@ Outcome check_field(const Posed_scene& posed, Random& random) {
   }
   if (within(whole.crossings(), field) != within(part.crossings(), field))
     return Outcome::failed("lines where faces cross are not those in the field as without");
-  return {};
+  return check_parts_of_field(whole, part, field, random);
 }
 
 }  // namespace
@@ -483,7 +554,7 @@ Check lines_check() {
 }
 
 Check field_check() {
-  return {"field", "the same parts of lines in a field of view as without",
+  return {"field", "the same parts of lines in a field of view, and in parts of it, as without",
           [](const Posed_scene& posed, const Answer&, Random& random) { return check_field(posed, random); }};
 }
 

@@ -7,6 +7,7 @@
 
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>

@@ -29,6 +29,10 @@ inline std::optional<Polygon_soup> scene_in(std::string_view bytes, Format forma
     require(error.line <= bytes.size() + 1 && error.column <= bytes.size() + 1,
             "an error in text is at a place in the file");
     require(!error.byte || *error.byte <= bytes.size(), "an error in binary data is at a place in the file");
+    const std::string_view behind_mark = bytes.substr(bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
+    require((behind_mark.find_first_not_of(" \t\v\f\r\n") == std::string_view::npos) ==
+                line.ends_with("the file is empty; give a scene"),
+            "an empty file is said to be empty");
     return std::nullopt;
   }
 }

@@ -16,6 +16,7 @@
 #include "decisions.h"
 #include "drawings.h"
 #include "event_cells.h"
+#include "eye_numbers.h"
 #include "faces.h"
 #include "fixed_integer.h"
 #include "forged.h"
@@ -103,6 +104,7 @@ inline const std::vector<Target>& targets() {
                                        {"single_parts", single_parts, {}},
                                        {"weak_parts", weak_parts, {}},
                                        {"sure_doubles", sure_doubles, {}},
+                                       {"eye_numbers", eye_numbers, {}},
                                        {"small_promises", small_promises, {}},
                                        {"rare_files", rare_files, {}},
                                        {"kept_files", kept_files, {}},

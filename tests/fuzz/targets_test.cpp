@@ -58,7 +58,7 @@ TEST_P(Fuzz, inputs_near_the_corpus) {
       {"forged", 100},     {"pairs", 15},         {"faces", 80},        {"weak_claims", 50},   {"decisions", 500},
       {"scene_laws", 160}, {"arcs", 120},         {"separations", 120}, {"planar_parts", 250}, {"pictures", 300},
       {"drawings", 1000},  {"only_nonsense", 60}, {"weak_laws", 40},    {"level_laws", 20},    {"image_laws", 60},
-      {"solid_laws", 30},  {"view_laws", 60},     {"one_edge", 600}};
+      {"solid_laws", 30},  {"view_laws", 60},     {"one_edge", 600},    {"eye_numbers", 300}};
   const auto found = of_long_ones.find(GetParam().name);
   const std::size_t inputs = found == of_long_ones.end() ? 1500 : found->second;
   for (std::size_t k = 0; k < std::max<std::size_t>(1, inputs * times() / share); ++k)

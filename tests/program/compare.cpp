@@ -381,13 +381,20 @@ TEST_F(Budget, that_runs_out_while_sizes_are_measured_leaves_the_rest_unmeasured
   if (sanitized) GTEST_SKIP() << "it is about seconds; other tests measure sizes under sanitizers";
   const std::string house = path("house.off").string();
   ASSERT_EQ(run({"generate", "rooms", "--size", "2", "--out", house}).code, done);
-  const Outcome r = run({"compare", house, "pvs", "--rays", "10", "--budget", "0.3", "--json", "-"}, {.seconds = 60});
-  const Json rows = r.json()["result"]["rows"];
-  ASSERT_EQ(rows[1]["method"], "rays");
-  ASSERT_EQ(rows[1]["status"], "done") << rows[1];
-  EXPECT_GT(rows[1]["errors"]["wrongly_hidden"], 200);
-  EXPECT_LT(rows[1]["sizes"]["wrongly_hidden"]["measured"], 200) << "looking from so many points takes longer";
-  EXPECT_FALSE(rows[1].contains("sample"));
+  Json row;
+  std::size_t wrong = 0;
+  for (double budget = 0.1; wrong <= 200 && budget < 30; budget *= 1.5) {  // there may be no time for the truth
+    const Outcome r = run({"compare", house, "pvs", "--rays", "10", "--budget", std::to_string(budget), "--json", "-"},
+                          {.seconds = 60});
+    if (r.out.empty()) continue;
+    row = r.json()["result"]["rows"][1];
+    ASSERT_EQ(row["method"], "rays");
+    if (row["status"] == "done") wrong = row["errors"]["wrongly_hidden"].get<std::size_t>();
+  }
+  ASSERT_GT(wrong, 200u);
+  EXPECT_LT(row["sizes"]["wrongly_hidden"]["measured"].get<std::size_t>(), wrong / 2)
+      << "looking from so many points takes longer";
+  EXPECT_FALSE(row.contains("sample"));
 }
 
 TEST_F(Budget, that_runs_out_before_there_are_cells_is_exit_4) {
