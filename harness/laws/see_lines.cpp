@@ -1,6 +1,7 @@
 #include <sightline/harness/laws/see_lines.h>
 
 #include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/crossings.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/visible.h>
@@ -334,8 +335,58 @@ Outcome check_crossings(const Looked& looked, const Flat_pieces& flats, const Ex
   return {};
 }
 
+/// That lines on some pieces are all lines, as far as they are on these.
+Outcome check_crossings_on(const Looked& looked, const Flat_pieces& flats, Random& random) {
+  std::vector<bool> some(flats.size());
+  const std::uint64_t share = 4 * (1 + random.below(2) * some.size() / 8);  // a quarter, or hardly two
+  for (std::size_t i = 0; i < some.size(); ++i) some[i] = random.chance(1, share);
+  const std::vector<Crossing> all = sightline::crossings(looked.scene, looked.boxes),
+                              on_some = crossings_on(some, looked.scene, looked.boxes);
+  struct Segment {
+    std::array<Exact_point, 2> ends;
+    bool holds(const Exact_point& x) const { return is_on_edge(ends[0], ends[1], x); }
+  };
+  const auto segment = [&](const Crossing& c) {
+    return Segment{{looked.scene.position(c.ends[0].at), looked.scene.position(c.ends[1].at)}};
+  };
+  const auto is_on_some = [&](const Exact_point& x) {
+    for (std::size_t i = 0; i < flats.size(); ++i)
+      if (some[i] && flats[i].plane.height(x) == 0 && is_within_walls(flats[i], x)) return true;
+    return false;
+  };
+  for (const auto* lists : {&all, &on_some})
+    for (const Crossing& c : *lists) {
+      const Segment own = segment(c);
+      const Exact_point x = point_inside(own.ends[0], 0, 1, own.ends[1], random);
+      const bool on = is_on_some(x);
+      if (lists == &all && !on) continue;
+      const auto is_there = [&](const Crossing& other) {
+        if (!segment(other).holds(x)) return false;
+        if (on) return other.faces == c.faces;
+        return std::includes(other.faces.begin(), other.faces.end(), c.faces.begin(), c.faces.end());
+      };
+      const std::vector<Crossing>& others = lists == &all ? on_some : all;
+      if (std::none_of(others.begin(), others.end(), is_there))
+        return Outcome::failed("lines where faces cross are not on some pieces what they are on all, on " +
+                               face_name(c.faces[0]));
+    }
+  return {};
+}
+
+/// Small faces far from all others, so that these are in trees of many boxes.
+void add_bystanders(generate::Faces& faces, Random& random) {
+  for (std::uint64_t count = 5 + random.below(26); count > 0; --count) {
+    Exact_point p = generate::lattice(random, 60), q = p, r = p;
+    p[random.below(3)] += 100;
+    q[random.below(3)] += 1;
+    r[random.below(3)] -= 2;
+    faces.push_back({p, generate::along(p, 1, minus(q, r)), generate::along(p, 1, generate::lattice(random, 2))});
+  }
+}
+
 /// Pages through one line, some of which end on it, the eye in the plane of one of them more often than not, and strips
-/// between the eye and the line.
+/// between the eye and the line; or, in a scene of many faces, a valley that hides the others but for what is on its
+/// bottom.
 Posed_scene any_pages(Random& random) {
   using namespace generate;
   Posed_scene posed;
@@ -370,6 +421,14 @@ Posed_scene any_pages(Random& random) {
     for (const auto& [across, up] : {std::array{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
       strip.push_back(along(along(at, across, wide), up, high));
     faces.push_back(either_way(strip, random));
+  }
+  if (random.chance(3, 4)) add_bystanders(faces, random);
+  if (random.chance(1, 2)) {
+    const Exact_point from = on_line(-20), to = on_line(20), aside = lattice(random, 2);
+    for (const int side : {-1, 1}) {
+      const Exact_point slope = along(minus(posed.eye, on_line(0)), ratio(side, 8), aside);
+      faces.push_back({from, to, along(to, ratio(1, 2), slope), along(from, ratio(1, 2), slope)});
+    }
   }
   shuffle(faces, random);
   posed.soup = soup_of(faces);
@@ -418,7 +477,9 @@ Outcome check_lines(const Posed_scene& posed, Random& random) {
   const Looked looked(posed);
   const Flat_pieces flats = flat_pieces(looked.scene);
   const Outcome edges = check_edges(looked, flats, posed.eye, random);
-  return edges.state == Outcome::State::failed ? edges : check_crossings(looked, flats, posed.eye, random);
+  if (edges.state == Outcome::State::failed) return edges;
+  const Outcome crossed = check_crossings(looked, flats, posed.eye, random);
+  return crossed.state == Outcome::State::failed ? crossed : check_crossings_on(looked, flats, random);
 }
 
 /// The rays of a field around the eye: upright along an axis, or through three points of the scene.

@@ -175,7 +175,7 @@ inline Exact_point drawn_eye(const std::vector<Exact_point>& points, generate::R
   switch (random.below(6)) {
     case 0: break;  // a corner
     case 5: {       // hardly off a plane of three
-      static constexpr std::array powers{30, 200, 290, 305, 330, 700, 1000, 1060};
+      static constexpr std::array powers{30, 200, 290, 305, 500, 512, 530, 1000, 1060};
       const Exact_point normal = cross(minus(q, p), minus(r, p));
       eye = generate::along(p, generate::power_of_two(-powers[random.below(powers.size())]), normal);
       for (std::size_t k = 0; k < 3; ++k) eye[k] += (q[k] - p[k]) * 3 / 8 - (r[k] - p[k]) / 2;

@@ -35,6 +35,7 @@
 #include "planar_parts.h"
 #include "quadratic_roots.h"
 #include "rare_files.h"
+#include "ray_numbers.h"
 #include "readers.h"
 #include "refusals.h"
 #include "scene_laws.h"
@@ -105,6 +106,7 @@ inline const std::vector<Target>& targets() {
                                        {"weak_parts", weak_parts, {}},
                                        {"sure_doubles", sure_doubles, {}},
                                        {"eye_numbers", eye_numbers, {}},
+                                       {"ray_numbers", ray_numbers, {}},
                                        {"small_promises", small_promises, {}},
                                        {"rare_files", rare_files, {}},
                                        {"kept_files", kept_files, {}},
