@@ -116,9 +116,15 @@ struct Cell_index {
 static Cell_index cells_in(const std::filesystem::path& folder) {
   constexpr const char* format = "sightline pvs certificates 3";
   const std::string file = (folder / "index.json").string();
-  if (!std::filesystem::exists(file))
+  if (!std::filesystem::exists(file)) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().filename().string().starts_with("index-"))
+        throw Input_error::of_file(folder.string(),
+                                   "has its index in parts, as shards write it; `sightline merge PARTS --out FILE "
+                                   "--certificates FOLDER` makes one of them");
     throw Input_error::of_file(
         folder.string(), "is a directory; name a file in it, or a folder that `sightline pvs --certificates` wrote");
+  }
   const std::string bytes = read_bytes(file);
   const nlohmann::json json = parse_json(bytes, file);
   Written_out written_out;

@@ -8,8 +8,11 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/io/binary.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
+#include <regex>
+#include <set>
 #include <sstream>
 
 namespace sightline::app {
@@ -17,6 +20,21 @@ namespace sightline::app {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* index_format = "sightline pvs certificates 3";
+constexpr const char* part_format = "sightline pvs certificates 3, part";
+
+std::string text_of_index(const std::string& question, Json cells, Json rest) {
+  return to_text({{"format", index_format},
+                  {"question", question},
+                  {"cells", std::move(cells)},
+                  {"rest", std::move(rest)}}) +
+         "\n";
+}
+
+fs::path part_of_index(const fs::path& folder, const Shard& shard) {
+  return folder / fmt::format("index-{}-of-{}.json", shard.shard, shard.shards);
+}
 
 /// A cell as what bounds it, for the index: its corners, and its walls as places of these, as seen from outside.
 void state_walls(Json& entry, const Cell_statement& statement) {
@@ -63,14 +81,17 @@ std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& le
 }  // namespace
 
 bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table,
-                        const Time_limit& limit, Ranks& ranks) {
+                        const Time_limit& limit, const Shard& own, Ranks& ranks) {
   const fs::path folder = arguments.certificates;
   if (ranks.is_first()) make_folder(folder);
   const Occluders occluders(level.scene());
   Progress progress("proving");
-  std::vector<Cell_id> asked;
+  // 1. The cells that are asked about, and others, go round among shards.
+  std::vector<Cell_id> asked, others;
+  std::array<std::size_t, 2> places{};
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell)
-    if (table.cells[cell]) asked.push_back(cell);
+    if (places[table.cells[cell]]++ % own.shards == own.shard) (table.cells[cell] ? asked : others).push_back(cell);
+  // 2. Their certificates.
   std::map<Cell_id, std::vector<Face_id>> unproved;
   bool all_decided = true;
   const auto name_of = [](Cell_id cell) { return fmt::format("cell-{}.json", cell); };
@@ -87,20 +108,108 @@ bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level
       },
       [&](std::size_t done, std::size_t all) { progress(done, all); });
   if (!ranks.is_first()) return true;
+  // 3. The index, or a part of it.
   Json index = Json::array(), rest = Json::array();
-  for (Cell_id cell = 0; cell < table.cells.size(); ++cell) {
+  for (const Cell_id cell : asked) {
     const Cell_statement statement = stated_cell(level, cell);
-    Json entry{{"cell", cell}};
-    if (table.cells[cell])
-      entry.update({{"within", statement.within}, {"certificate", name_of(cell)}, {"unproved", unproved[cell]}});
-    state_walls((table.cells[cell] ? index : rest).emplace_back(std::move(entry)), statement);
+    state_walls(index.emplace_back(Json{{"cell", cell},
+                                        {"within", statement.within},
+                                        {"certificate", name_of(cell)},
+                                        {"unproved", unproved[cell]}}),
+                statement);
   }
+  for (const Cell_id cell : others) state_walls(rest.emplace_back(Json{{"cell", cell}}), stated_cell(level, cell));
   progress.clear();
-  write_file((folder / "index.json").string(), to_text({{"format", "sightline pvs certificates 3"},
-                                                        {"question", table.question},
-                                                        {"cells", std::move(index)},
-                                                        {"rest", std::move(rest)}}) +
-                                                   "\n");
+  if (own.shards == 1) {
+    write_file((folder / "index.json").string(), text_of_index(table.question, std::move(index), std::move(rest)));
+  } else {
+    write_file(part_of_index(folder, own).string(), to_text({{"format", part_format},
+                                                             {"question", table.question},
+                                                             {"all_decided", all_decided},
+                                                             {"cells", std::move(index)},
+                                                             {"rest", std::move(rest)}}) +
+                                                        "\n");
+  }
+  return all_decided;
+}
+
+namespace {
+
+/// The parts of an index that are in a folder: all of one division, or an error that says what is missing.
+std::vector<fs::path> parts_in(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw Input_error::of_file(folder.string(),
+                               "is no folder; name the one that `pvs --shard --certificates` wrote to");
+  std::map<std::uint32_t, std::set<std::uint32_t>> found;  // by how many shards there are
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    static const std::regex pattern("index-([0-9]{1,7})-of-([0-9]{1,7})[.]json");
+    const std::string name = entry.path().filename().string();
+    std::smatch numbers;
+    if (std::regex_match(name, numbers, pattern))
+      found[static_cast<std::uint32_t>(std::stoul(numbers[2]))].insert(
+          static_cast<std::uint32_t>(std::stoul(numbers[1])));
+  }
+  if (found.empty())
+    throw Input_error::of_file(folder.string(),
+                               "has no part of an index; `pvs --shard I/N --certificates FOLDER` writes one");
+  if (found.size() > 1)
+    throw Input_error::of_file(folder.string(), fmt::format("has parts of {} shards and of {}; remove those of one",
+                                                            found.begin()->first, found.rbegin()->first));
+  const auto& [shards, there] = *found.begin();
+  std::vector<fs::path> parts;
+  for (std::uint32_t shard = 0; shard < shards; ++shard) {
+    parts.push_back(part_of_index(folder, {shard, shards}));
+    if (!there.contains(shard))
+      throw Input_error::of_file(parts.back().string(),
+                                 fmt::format("is missing; run again --shard {}/{}", shard, shards));
+  }
+  return parts;
+}
+
+/// An entry with its parts in the order of those that are written.
+Json in_order(const nlohmann::json& entry) {
+  Json ordered;
+  for (const char* key : {"cell", "within", "certificate", "unproved", "corners", "walls"})
+    if (entry.contains(key)) ordered[key] = entry[key];
+  return ordered;
+}
+
+}  // namespace
+
+bool join_certificates(const std::string& folder, const std::string& question) {
+  std::map<std::uint64_t, Json> cells, rest;
+  bool all_decided = true;
+  const std::vector<fs::path> parts = parts_in(folder);
+  for (const fs::path& part : parts) {
+    const std::string file = part.string();
+    const nlohmann::json json = parse_json(read_bytes(file), file);
+    const auto refuse = [&](const std::string& what) { throw Input_error::of_file(file, what); };
+    try {
+      if (json.at("format") != part_format) refuse(fmt::format("its \"format\" is not \"{}\"", part_format));
+      if (json.at("question") != question)
+        refuse(fmt::format("is of another question than the tables: \"{}\", not \"{}\"",
+                           json["question"].get<std::string>(), question));
+      all_decided = all_decided && json.at("all_decided").get<bool>();
+      for (auto* list : {&cells, &rest})
+        for (const nlohmann::json& entry : json.at(list == &cells ? "cells" : "rest")) {
+          const auto cell = entry.at("cell").get<std::uint64_t>();
+          if (cells.contains(cell) || rest.contains(cell))
+            refuse(fmt::format("has cell {}, as another part has", cell));
+          if (list == &cells && !fs::exists(fs::path(folder) / entry.at("certificate").get<std::string>()))
+            refuse(fmt::format("names \"{}\", which is not in the folder", entry["certificate"].get<std::string>()));
+          list->emplace(cell, in_order(entry));
+        }
+    } catch (const nlohmann::json::exception&) {
+      refuse("has not the parts of an index; run that shard again");
+    }
+  }
+  const auto listed = [](std::map<std::uint64_t, Json>& entries) {
+    Json list = Json::array();
+    for (auto& [cell, entry] : entries) list.push_back(std::move(entry));
+    return list;
+  };
+  write_file((fs::path(folder) / "index.json").string(), text_of_index(question, listed(cells), listed(rest)));
+  for (const fs::path& part : parts) fs::remove(part);
   return all_decided;
 }
 

@@ -1,5 +1,6 @@
 // sightline merge: the parts of a table together.
 
+#include "certificates.h"
 #include "pvs.h"
 #include "tables.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 struct Merge_arguments {
   std::vector<std::string> parts;
-  std::string out;
+  std::string out, certificates;
 };
 
 Exit run_merge(const Merge_arguments& arguments) {
@@ -25,6 +26,7 @@ Exit run_merge(const Merge_arguments& arguments) {
   }
   try {
     const Visibility_table table = merged(parts, arguments.parts);
+    const bool all_proved = arguments.certificates.empty() || join_certificates(arguments.certificates, table.question);
     write_table(arguments.out, table);
     const std::size_t undecided = count_of(table, &Visibility_table::Row::undecided),
                       cells_undecided = count_of(table, &Visibility_table::Row::cells_undecided) / 2;
@@ -36,7 +38,7 @@ Exit run_merge(const Merge_arguments& arguments) {
         row("", fmt::format("of two cells: {} see each other, {} undecided",
                             count_of(table, &Visibility_table::Row::cells) / 2, cells_undecided));
     }
-    return undecided + cells_undecided > 0 ? Exit::undecided : Exit::done;
+    return undecided + cells_undecided > 0 || !all_proved ? Exit::undecided : Exit::done;
   } catch (const Merge_error& error) {
     throw std::runtime_error(std::string("merge: ") + error.what());
   }
@@ -49,6 +51,10 @@ void add_merge(Command program) {
   auto a = std::make_shared<Merge_arguments>();
   command.add_option("PARTS", a->parts, "tables of one scene, with the same options").required().reads_file();
   command.add_option("--out", a->out, "write the table: .json, .csv, or else binary").required().writes_file();
+  command
+      .add_option("--certificates", a->certificates,
+                  "the folder to which `pvs --shard --certificates` wrote: of its parts of an index make one")
+      .check(not_empty());
   command.footer(
       "Refuses parts of other scenes or options, a face twice, and a face in none; then it says which shards "
       "to run again. Exit code 4: pairs are undecided, as `pvs` says.");

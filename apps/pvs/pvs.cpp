@@ -96,8 +96,8 @@ void check_usage(const Pvs_arguments& arguments, const Shard& own) {
   const bool has_drawing = !arguments.svg.empty() || !arguments.obj.empty() || !arguments.mesh.empty();
   if (arguments.resume && (arguments.out.empty() || arguments.out == "-"))
     throw Usage_error("--resume keeps what is done beside an output: name it with --out FILE");
-  if (own.shards > 1 && (!arguments.show.empty() || !arguments.certificates.empty()))
-    throw Usage_error("a shard has some faces only: leave out --show and --certificates, or --shard");
+  if (own.shards > 1 && !arguments.show.empty())
+    throw Usage_error("a shard has some faces only: leave out --show, or --shard");
   if (arguments.show.empty() && has_drawing)
     throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
   arguments.view.check_usage(!arguments.svg.empty());
@@ -223,7 +223,7 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   const Visibility_table table = in_blocks ? maker.make_in_blocks(own, ranks) : maker.make(own);
   maker.clear();
   if (!ranks.is_first()) {
-    if (!arguments.certificates.empty()) write_certificates(arguments, level, table, limit, ranks);
+    if (!arguments.certificates.empty()) write_certificates(arguments, level, table, limit, own, ranks);
     return Exit::done;
   }
   const double seconds = watch.seconds() - cells_seconds;
@@ -236,7 +236,8 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of_table(level, table, arguments.show));
   if (!arguments.html.empty()) write_page(arguments, level, table);
-  const bool all_proved = arguments.certificates.empty() || write_certificates(arguments, level, table, limit, ranks);
+  const bool all_proved =
+      arguments.certificates.empty() || write_certificates(arguments, level, table, limit, own, ranks);
   const Exit exit = !facts.is_decided() || !all_proved ? Exit::undecided : Exit::done;
   Json counters = counters_json(maker.counters());
   counters["cells"] = counters_json(level.counters());
@@ -298,13 +299,15 @@ void add_pvs(Command program) {
   command.add_option("--eye", a->eye, "with --svg: X,Y,Z; by default a place outside the scene").check(not_empty());
   a->view.add_to(command);
   command
-      .add_option("--certificates", a->certificates,
-                  "write a certificate for each cell, and an index that states the cells, to this folder")
+      .add_option(
+          "--certificates", a->certificates,
+          "write a certificate for each cell, and an index that states the cells, to this folder; of a shard those "
+          "of its cells, and a part of the index, for `merge --certificates`")
       .check(not_empty());
   command.add_option(
       "--shard", a->shard,
-      "I/N: the faces, and pairs whose lower cell, are I modulo N; by default what SLURM_ARRAY_TASK_ID and "
-      "_COUNT say");
+      "I/N: the faces, pairs whose lower cell, and cells with certificates, are each I-th of N; by default what "
+      "SLURM_ARRAY_TASK_ID and _COUNT say");
   command.add_flag("--resume", a->resume, "keep blocks of faces beside --out, and do not ask again what they hold");
   command.footer(
       "Example: sightline pvs level.map --out level.pvs\n"

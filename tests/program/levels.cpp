@@ -473,6 +473,53 @@ TEST_F(Levels, certificates_of_all_cells_are_accepted_and_agree_with_the_table) 
   EXPECT_EQ(run({"verify", rooms, rooms, "--sample", "2"}).code, usage);
 }
 
+TEST_F(Levels, certificates_of_shards_are_those_of_one_run) {
+  ASSERT_EQ(run({"pvs", rooms, "--certificates", out("proofs"), "--out", out("whole.pvs")}).code, done);
+  const auto shard = [&](const std::string& i, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"pvs", rooms, "--shard", i + "/3", "--out", out("part" + i)};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words).code;
+  };
+  const auto merge = [&] {
+    return run({"merge", out("part0"), out("part1"), out("part2"), "--out", out("merged.pvs"), "--certificates",
+                out("shared")});
+  };
+  for (const char* i : {"0", "1"}) ASSERT_EQ(shard(i, {"--certificates", out("shared")}), done);
+  ASSERT_EQ(shard("2", {}), done);
+  // What is not there yet.
+  const Outcome in_parts = run({"verify", rooms, out("shared")});
+  EXPECT_EQ(in_parts.code, bad_input) << in_parts;
+  EXPECT_NE(in_parts.err.find("merge"), std::string::npos) << in_parts;
+  const Outcome gap = merge();
+  EXPECT_EQ(gap.code, bad_input) << gap;
+  EXPECT_NE(gap.err.find("index-2-of-3.json: is missing; run again --shard 2/3"), std::string::npos) << gap;
+  EXPECT_FALSE(std::filesystem::exists(path("merged.pvs")));
+  // What is of other cells, or of another division.
+  ASSERT_EQ(shard("2", {"--certificates", out("shared"), "--candidates", "1"}), done);
+  ASSERT_EQ(shard("2", {}), done);
+  const Outcome other = merge();
+  EXPECT_EQ(other.code, bad_input) << other;
+  EXPECT_NE(other.err.find("another question"), std::string::npos) << other;
+  std::ofstream(path("shared/index-0-of-2.json")) << "{}";
+  EXPECT_EQ(merge().code, bad_input);
+  std::filesystem::remove(path("shared/index-0-of-2.json"));
+  std::ofstream(path("shared/index-2-of-3.json")) << "{}";
+  EXPECT_EQ(merge().code, bad_input);
+  // All of it, byte by byte.
+  std::filesystem::remove_all(path("shared"));
+  for (const char* i : {"0", "1", "2"}) ASSERT_EQ(shard(i, {"--certificates", out("shared")}), done);
+  ASSERT_EQ(merge().code, done);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(path("proofs"))) {
+    ++files;
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(bytes_of("shared/" + name), bytes_of("proofs/" + name)) << name;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path("shared")), {}), static_cast<std::ptrdiff_t>(files));
+  EXPECT_EQ(bytes_of("merged.pvs"), bytes_of("whole.pvs"));
+  EXPECT_EQ(run({"verify", rooms, out("shared")}).code, done);
+}
+
 /// A folder in which the index or the certificate says something else of one cell than `pvs` did; what `verify` says.
 /// Nothing is claimed of what the cell sees, so that what is wrong is what is said of the cell.
 TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
