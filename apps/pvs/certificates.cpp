@@ -7,13 +7,21 @@
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/io/binary.h>
+#include <sightline/io/file.h>
+#include <sightline/io/input.h>
 
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 namespace sightline::app {
 
@@ -35,6 +43,47 @@ std::string text_of_index(const std::string& question, Json cells, Json rest) {
 fs::path part_of_index(const fs::path& folder, const Shard& shard) {
   return folder / fmt::format("index-{}-of-{}.json", shard.shard, shard.shards);
 }
+
+/// What `--resume` keeps of cells whose certificates are whole: which question they answer, what their bytes add up to,
+/// and what they do not prove.
+class Kept_cells {
+ public:
+  Kept_cells(fs::path folder, std::string question, bool keeps)
+      : folder_(std::move(folder)), question_(std::move(question)), keeps_(keeps) {}
+
+  static std::string name_of(Cell_id cell) { return fmt::format("cell-{}.json", cell); }
+  fs::path certificate(Cell_id cell) const { return folder_ / name_of(cell); }
+
+  /// Nothing where there is no such cell, of this question, with the certificate that was written.
+  std::optional<std::vector<Face_id>> unproved_of(Cell_id cell) const {
+    if (!keeps_ || !fs::is_regular_file(mark(cell)) || !fs::is_regular_file(certificate(cell))) return std::nullopt;
+    try {
+      const nlohmann::json json = nlohmann::json::parse(read_own_bytes(mark(cell)));
+      if (json.at("question") == question_ && json.at("sum") == sum_of_bytes(read_own_bytes(certificate(cell))))
+        return json.at("unproved").get<std::vector<Face_id>>();
+    } catch (const nlohmann::json::exception&) {
+    } catch (const Input_error&) {
+    }
+    return std::nullopt;
+  }
+  void keep(Cell_id cell, std::string_view certificate, const std::vector<Face_id>& unproved) const {
+    if (!keeps_) return;
+    const Json json{{"question", question_}, {"sum", sum_of_bytes(certificate)}, {"unproved", unproved}};
+    write_file(mark(cell).string(), to_text(json) + "\n");
+  }
+  void forget(const std::vector<Cell_id>& cells) const {
+    std::error_code error;
+    if (!keeps_) return;
+    for (const Cell_id cell : cells) fs::remove(mark(cell), error);
+  }
+
+ private:
+  fs::path mark(Cell_id cell) const { return folder_ / fmt::format("cell-{}.kept", cell); }
+
+  fs::path folder_;
+  std::string question_;
+  bool keeps_;
+};
 
 /// A cell as what bounds it, for the index: its corners, and its walls as places of these, as seen from outside.
 void state_walls(Json& entry, const Cell_statement& statement) {
@@ -91,12 +140,16 @@ bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level
   std::array<std::size_t, 2> places{};
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell)
     if (places[table.cells[cell]]++ % own.shards == own.shard) (table.cells[cell] ? asked : others).push_back(cell);
-  // 2. Their certificates.
+  // 2. Their certificates, but for those that are there.
+  const Kept_cells kept(folder, table.question, arguments.resume && ranks.is_first());
   std::map<Cell_id, std::vector<Face_id>> unproved;
+  std::vector<Cell_id> missing;
+  for (const Cell_id cell : asked)
+    if (auto faces = kept.unproved_of(cell)) unproved[cell] = *std::move(faces);
+    else missing.push_back(cell);
   bool all_decided = true;
-  const auto name_of = [](Cell_id cell) { return fmt::format("cell-{}.json", cell); };
   ranks.share(
-      "certificates", asked, [&](Cell_id cell) { return certificate_of(arguments, level, occluders, limit, cell); },
+      "certificates", missing, [&](Cell_id cell) { return certificate_of(arguments, level, occluders, limit, cell); },
       [&](Cell_id cell, const std::string& answer) {
         std::vector<Face_id>& faces = unproved[cell];
         progress(unproved.size(), asked.size());
@@ -104,7 +157,9 @@ bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level
         all_decided = all_decided && number(0) == 0;
         faces.resize(number(1));
         for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = number(i + 2);
-        write_file((folder / name_of(cell)).string(), std::string_view(answer).substr(4 * (faces.size() + 2)));
+        const std::string_view certificate = std::string_view(answer).substr(4 * (faces.size() + 2));
+        write_file(kept.certificate(cell).string(), certificate);
+        if (number(0) == 0) kept.keep(cell, certificate, faces);  // what time left open is asked again
       },
       [&](std::size_t done, std::size_t all) { progress(done, all); });
   if (!ranks.is_first()) return true;
@@ -114,7 +169,7 @@ bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level
     const Cell_statement statement = stated_cell(level, cell);
     state_walls(index.emplace_back(Json{{"cell", cell},
                                         {"within", statement.within},
-                                        {"certificate", name_of(cell)},
+                                        {"certificate", Kept_cells::name_of(cell)},
                                         {"unproved", unproved[cell]}}),
                 statement);
   }
@@ -130,6 +185,7 @@ bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level
                                                              {"rest", std::move(rest)}}) +
                                                         "\n");
   }
+  if (all_decided) kept.forget(asked);
   return all_decided;
 }
 

@@ -231,13 +231,13 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
 
   // 3. What is written.
   if (!arguments.out.empty()) write_table(arguments.out, table);
-  if (arguments.resume && facts.is_decided()) maker.remove_kept();
   if (!arguments.svg.empty()) draw(arguments, soup, level, table);
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of_table(level, table, arguments.show));
   if (!arguments.html.empty()) write_page(arguments, level, table);
   const bool all_proved =
       arguments.certificates.empty() || write_certificates(arguments, level, table, limit, own, ranks);
+  if (arguments.resume && facts.is_decided() && all_proved) maker.remove_kept();
   const Exit exit = !facts.is_decided() || !all_proved ? Exit::undecided : Exit::done;
   Json counters = counters_json(maker.counters());
   counters["cells"] = counters_json(level.counters());
@@ -308,7 +308,9 @@ void add_pvs(Command program) {
       "--shard", a->shard,
       "I/N: the faces, pairs whose lower cell, and cells with certificates, are each I-th of N; by default what "
       "SLURM_ARRAY_TASK_ID and _COUNT say");
-  command.add_flag("--resume", a->resume, "keep blocks of faces beside --out, and do not ask again what they hold");
+  command.add_flag("--resume", a->resume,
+                   "keep blocks of faces beside --out, and cells with certificates in their folder, and do not ask "
+                   "again what they hold");
   command.footer(
       "Example: sightline pvs level.map --out level.pvs\n"
       "         for i in 0 1 2 3; do sightline pvs level.map --shard $i/4 --out part$i.pvs --resume & done; wait\n"

@@ -405,6 +405,47 @@ TEST_F(Levels, a_worker_that_is_killed_at_any_moment_goes_on_to_the_same_table) 
   RecordProperty("ended", ended);
 }
 
+TEST_F(Levels, certificates_that_are_there_are_not_made_again) {
+  const std::string house = path("house.off").string();
+  ASSERT_EQ(run({"generate", "rooms", "--size", "1", "--seed", "3", "--out", house}).code, done);
+  ASSERT_EQ(run({"pvs", house, "--out", out("whole.pvs"), "--certificates", out("proofs")}).code, done);
+  const auto kept = [&] {
+    std::vector<std::string> cells;
+    if (std::filesystem::exists(path("again")))
+      for (const auto& entry : std::filesystem::directory_iterator(path("again")))
+        if (entry.path().extension() == ".kept") cells.push_back(entry.path().stem().string());
+    return cells;
+  };
+  const auto again = [&](double seconds) {
+    return run({"pvs", house, "--resume", "--out", out("again.pvs"), "--certificates", out("again")},
+               {.seconds = seconds})
+        .code;
+  };
+  double seconds = 0.05;
+  int code = -1;
+  for (; code == -1 && kept().empty(); seconds *= 1.2) code = again(seconds);
+  ASSERT_EQ(code, -1) << "it was done before one certificate was kept";
+  const std::string first = kept()[0], name = "again/" + first + ".json";
+  const auto written = std::filesystem::last_write_time(path(name));
+  const std::string mark = bytes_of("again/" + first + ".kept");
+  for (; code == -1; seconds *= 1.2) code = again(seconds);
+  ASSERT_EQ(code, done);
+  EXPECT_EQ(std::filesystem::last_write_time(path(name)), written);
+  EXPECT_TRUE(kept().empty());
+  for (const auto& entry : std::filesystem::directory_iterator(path("proofs"))) {
+    const std::string file = entry.path().filename().string();
+    EXPECT_EQ(bytes_of("again/" + file), bytes_of("proofs/" + file)) << file;
+  }
+  // What is damaged is made again.
+  for (const bool is_damaged : {false, true}) {
+    std::ofstream(path("again/" + first + ".kept")) << (is_damaged ? mark : std::string("{}"));
+    if (is_damaged) std::ofstream(path(name), std::ios::app) << ' ';
+    ASSERT_EQ(again(100), done);
+    EXPECT_NE(std::filesystem::last_write_time(path(name)), written);
+    EXPECT_EQ(bytes_of(name), bytes_of("proofs/" + first + ".json"));
+  }
+}
+
 TEST_F(Levels, tables_are_text_too_and_show_cells) {
   ASSERT_EQ(run({"pvs", rooms, "--out", out("t.json")}).code, done);
   ASSERT_EQ(run({"pvs", rooms, "--out", out("t.csv")}).code, done);
