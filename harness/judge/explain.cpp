@@ -310,7 +310,7 @@ std::optional<Refutation> sightline_to(const Scene& scene, const Query& query, c
 }
 
 /// A line to a face that no point of the source sees: behind the source, or past what hides it from a point of that,
-/// the middle where it tells.
+/// the middle where it tells, to a point in front of the source.
 std::optional<Refutation> weakly_hidden_face(const std::vector<Flat_piece>& pieces, const Query& query, Face_id face) {
   const Exact_point from = middle(query.source);
   const certificate_check::Plane plane{newell_normal(query.source), from};
@@ -325,11 +325,17 @@ std::optional<Refutation> weakly_hidden_face(const std::vector<Flat_piece>& piec
   if (behind)
     return Refutation{face, from, middle(last->corners),
                       {},   {},   face_words(face) + " is behind the source, or in its plane"};
+  // Of a face that the source's plane cuts, what is in front of that: to what is behind it nothing need be in the way.
+  std::vector<Flat_piece> in_front;
+  for (Flat_piece piece : pieces) {
+    if (piece.face == face) piece.corners = clipped(piece.corners, plane.normal, from);
+    if (piece.face != face || has_area(piece.corners)) in_front.push_back(std::move(piece));
+  }
   for (std::size_t k = 0; k <= query.source.size(); ++k) {
     Exact_point point = from;
     if (k > 0)
       for (std::size_t x = 0; x < 3; ++x) point[x] = (2 * from[x] + query.source[k - 1][x]) / 3;
-    std::optional<Refutation> line = hidden_face(pieces, point, face, query.two_sided,
+    std::optional<Refutation> line = hidden_face(in_front, point, face, query.two_sided,
                                                  k == 0 ? "the middle of the source" : "a point of the source");
     if (!line) continue;
     line->words += "; that no other line reaches it is proved";

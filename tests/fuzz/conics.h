@@ -4,11 +4,13 @@
 #include "quadratic_roots.h"
 #include "support.h"
 
+#include <sightline/algorithms/weak_visibility/partition/curve_arrangement.h>
 #include <sightline/algorithms/weak_visibility/partition/plane_chart.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -100,8 +102,45 @@ inline std::optional<Known_conic> any_conic(Bytes& from) {
   return known;
 }
 
+/// A curve may meet a rectangle about a place of it, and does not where its value is far from 0.
+inline void check_meeting(const Conic& c, Bytes& from) {
+  const long x = static_cast<long>(from.below(17)) - 8, y = static_cast<long>(from.below(17)) - 8;
+  const double half = std::ldexp(1.0, -static_cast<int>(from.below(30)));
+  const Chart_box box{static_cast<double>(x) - half, static_cast<double>(x) + half, static_cast<double>(y) - half,
+                      static_cast<double>(y) + half};
+  Plane_curve through{c};
+  through.c[0] -= c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y;
+  require(may_meet(through, box), "a curve through the middle of a rectangle may meet it");
+  Integer sum = 1;
+  for (const Integer& n : c) sum += abs(n);
+  Plane_curve beside = through;
+  beside.c[0] += 1000 * sum;  // the rest changes by less than 40 times their sum
+  require(!may_meet(beside, box), "a curve far from a rectangle does not meet it");
+}
+
+/// y^2 + 2^k y + n x = 2^(k - 1), or turned over: hardly bent in the square, where its bounds are as near as for a
+/// line.
+inline void try_flat_conic(Bytes& from) {
+  const auto k = static_cast<mp_bitcnt_t>(20 + from.below(41));
+  const long slope = 1 + static_cast<long>(from.below(256));
+  const bool is_turned = from.below(2) == 1;
+  const Integer one = Integer(1) << k, half = Integer(1) << (k - 1);
+  const std::array<Plane_curve, 1> curves{
+      Plane_curve{{is_turned ? half : Integer(-half), slope, is_turned ? Integer(-one) : one, 0, 0, 1}}};
+  const Curve_arrangement found(curves, {0, 1, 0, 1});
+  require(found.slabs().size() == 1 && found.slabs()[0].arcs.size() == 1, "a flat conic has one arc in a square");
+  const Curve_arrangement::Arc arc = found.slabs()[0].arcs[0];
+  for (const std::size_t limit : {0, 1}) {
+    const Bounded y = found.value(arc, limit);
+    const Rational x(static_cast<long>(limit));
+    require(curves[0].sign(x, exact(y.low)) * curves[0].sign(x, exact(y.high)) <= 0, "a value is between its bounds");
+    require(y.high - y.low < 0x1p-40, "bounds of a value are as near as doubles tell");
+  }
+}
+
 inline void conics(std::string_view bytes) {
   Bytes from(bytes);
+  if (from.below(8) == 0) return try_flat_conic(from);
   std::optional<Known_conic> known = any_conic(from);
   if (!known) return;
 
@@ -116,6 +155,7 @@ inline void conics(std::string_view bytes) {
   // 2. Where it is: by its value there, and by how many values of y there are.
   const auto number = [&]() -> Rational { return Rational(from.integer(3)) / (1 + static_cast<long>(from.below(4))); };
   for (const Conic& c : found) {
+    check_meeting(c, from);
     const Plane_curve curve{c};
     const Rational x = number(), y = number();
     const auto value = [&](const Rational& at) {

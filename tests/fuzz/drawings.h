@@ -204,6 +204,7 @@ inline void in_glb(const Sketch& sketch) {
     for (std::size_t i = 0; i < sketch.polygons.size(); ++i)
       if (sketch.groups[i] == g) order.push_back(i);
   if (order.empty()) return require(!tree.contains("meshes"), "glb: what is empty has no mesh");
+  require(!tree.at("nodes").at(0).contains("scale"), "glb: what floats hold is not scaled");
   const Polygon_soup soup = read_scene(bytes, Format::glb, "drawing", {});
   Face_id f = 0;
   for (const std::size_t i : order)

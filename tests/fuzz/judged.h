@@ -20,7 +20,12 @@ namespace fuzz {
 inline void judged(std::string_view bytes) {
   using namespace judged_laws;
   using Law = void (*)(generate::Random&);
-  static constexpr std::array<Law, 22> laws{try_case_of_a_family,
+  static constexpr std::array<Law, 27> laws{try_case_with_straight_corners,
+                                            try_excused_rays,
+                                            try_truth_without_time,
+                                            try_face_zero,
+                                            try_why_not_in_order_of_parts,
+                                            try_case_of_a_family,
                                             try_case_of_a_scene,
                                             try_grade_of_faces,
                                             try_grade_of_an_order,

@@ -7,6 +7,7 @@
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/judge/case.h>
+#include <sightline/harness/judge/protocol.h>
 #include <sightline/harness/judge/solids.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/fuzz.h>
@@ -15,11 +16,14 @@
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace fuzz::judged_laws {
@@ -97,6 +101,30 @@ inline Exact_point vector_area(const Polygon_soup& soup) {
   return sum;
 }
 
+/// Triangles, some with a corner more inside an edge: a case is as given iff nothing of it was changed.
+inline void try_case_with_straight_corners(Random& random) {
+  generate::Faces faces;
+  for (std::uint64_t n = 1 + random.below(3); n > 0; --n) {
+    Points face{generate::lattice(random, 5), generate::lattice(random, 5), generate::lattice(random, 5)};
+    if (is_zero(cross(minus(face[1], face[0]), minus(face[2], face[0])))) return;
+    const std::size_t at = random.below(3);
+    if (random.chance(2, 3))
+      face.insert(face.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                  generate::along(face[at], Rational(1, 2), minus(face[(at + 1) % 3], face[at])));
+    faces.push_back(face);
+  }
+  const Polygon_soup soup = generate::soup_of(faces);
+  Query query;
+  query.question = Question::see;
+  query.eye = generate::lattice(random, 5);
+  Case_options options;
+  options.question = Question::see;
+  options.triangles = random.chance(3, 4);
+  const Case made = judge::case_of(soup, query, options);
+  if (made.not_asked.empty())
+    require(made.as_given == same(made.soup, soup), "a case is as given iff nothing of it was changed");
+}
+
 inline void try_case_of_a_family(Random& random) {
   const harness::Fuzz_case drawn = any_case(random);
   const harness::Posed_scene posed = harness::make(drawn);
@@ -114,6 +142,9 @@ inline void try_case_of_a_family(Random& random) {
   if (!made.not_asked.empty()) return;
   require(made.query.question == question && made.query.two_sided == options.two_sided,
           "a case asks what it was asked for");
+  const std::string told = judge::to_json(made.query).dump();
+  require(judge::to_json(judge::query_from_json(nlohmann::json::parse(told))).dump() == told,
+          "a query is read as it is written");
   // 2. As the family gave it.
   if (question != Question::boolean && question != Question::trace) {
     const bool is_given = same(made.soup, posed.soup) &&

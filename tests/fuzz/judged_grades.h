@@ -7,6 +7,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/judge/grade.h>
 #include <sightline/harness/judge/truth.h>
+#include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/sightline.h>
 
@@ -63,6 +64,40 @@ inline void try_grade_of_faces(Random& random) {
                                     : answered.abstained.empty() ? Mark::right
                                                                  : Mark::abstained),
           "a mark says whether anything is wrong, or left open");
+}
+
+/// Where rays that only touch faces are excused: what they touch before they meet something may be named, and nothing
+/// too where they touch alone.
+inline void try_excused_rays(Random& random) {
+  const std::optional<Asked> asked = any_asked(Question::trace, random);
+  if (!asked) return;
+  judge::Truth_options options = asked->options;
+  options.excuse_touching = true;
+  const Polygon_soup& soup = asked->made.soup;
+  const Truth truth = judge::truth_of(soup, asked->made.query, options);
+  if (!asked->scene.set_aside().empty()) return;
+  for (std::size_t r = 0; r < truth.rays.size(); ++r) {
+    const Exact_ray& ray = asked->made.query.rays[r];
+    std::set<Face_id> right;
+    std::optional<Rational> end;  // of the first depth where a face is met inside
+    for (const Face_hit& hit : harness::hits_by_definition(soup, asked->scene, ray, Ray_start::open)) {
+      if (end && hit.t > *end) break;
+      right.insert(hit.face);
+      if (hit.side != Met_side::along && !is_on_border(soup, hit.face, point_at(ray, hit.t))) end = hit.t;
+    }
+    require(truth.rays[r].nothing == !end, "nothing is right iff a ray touches faces only");
+    require(truth.rays[r].right == Face_ids(right.begin(), right.end()), "what a ray touches before may be named");
+  }
+}
+
+inline void try_truth_without_time(Random& random) {
+  const std::optional<Asked> asked = any_asked(Question::weak, random);
+  if (!asked) return;
+  judge::Truth_options options = asked->options;
+  options.seconds = -1;
+  const Truth truth = judge::truth_of(asked->made.soup, asked->made.query, options);
+  require(truth.visible.empty() && truth.hidden.empty(), "without time nothing is decided");
+  require(names(truth.not_asked, "budget"), "what is not decided at all is not asked");
 }
 
 /// A face of one piece as a part that is all of it, from any corner on and either way round; returns it smaller by

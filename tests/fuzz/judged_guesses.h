@@ -68,12 +68,28 @@ inline void try_reading_of_faces(Random& random) {
     for (Face_id& f : shown) ++f;
     if (!shown.empty() && shown.back() == soup.face_count()) return;  // no answer names it
     if (random.chance(1, 4)) {
+      if (truth.visible.empty() || random.chance(1, 4)) shown.clear();
       shown.insert(shown.begin(), 0);
       is_right = false;
     }
   }
   require(judge::is_right(reading, soup, query, answered.answer, asked->options) == is_right,
           "an answer is right under a reading iff it is what that reading sees");
+}
+
+/// Of one triangle, seen from behind: who counts from 1 names no face 0.
+inline void try_face_zero(Random& random) {
+  const auto number = [&](std::int64_t least, std::int64_t most) { return generate::integer(random, least, most); };
+  Query query;
+  query.question = Question::see;
+  for (Rational& x : query.eye) x = number(-3, 3);
+  query.eye[2] = number(-5, -1);
+  judge::Answer answer;
+  answer.visible = {0};
+  const Rational wide = number(1, 5), high = number(1, 5);
+  require(!judge::is_right(Reading::from_one, generate::soup_of({{{0, 0, 0}, {wide, 0, 0}, {0, high, 0}}}), query,
+                           answer, judge::Truth_options()),
+          "who counts from 1 names no face 0");
 }
 
 inline void try_reading_of_an_order(Random& random) {

@@ -100,6 +100,33 @@ struct Asked {
   }
 };
 
+/// Whether faces that count overlap in a cycle, by what sees what over what.
+inline bool overlaps_in_a_cycle(const Asked& asked) {
+  const Query& query = asked.made.query;
+  std::set<Face_id> left;
+  std::set<std::array<Face_id, 2>> over;
+  const auto towards = [&](std::size_t k) {
+    const Flat_face& piece = asked.pieces[k];
+    return piece.height(query.eye) < 0 ? Flat_face(generate::reversed(piece.corners)) : piece;
+  };
+  const auto counts = [&](std::size_t k) { return asked.counts_from(query.eye, asked.owners[k], query.two_sided); };
+  for (std::size_t a = 0; a < asked.pieces.size(); ++a) {
+    if (!counts(a)) continue;
+    left.insert(asked.owners[a]);
+    for (std::size_t b = 0; b < asked.pieces.size(); ++b)
+      if (counts(b) && asked.owners[a] != asked.owners[b] && harness::sees_over(query.eye, towards(a), towards(b)))
+        over.insert({asked.owners[a], asked.owners[b]});
+  }
+  for (;;) {  // without those that are over nothing
+    std::vector<Face_id> ends;
+    for (const Face_id f : left)
+      if (std::none_of(over.begin(), over.end(), [&](const auto& p) { return p[0] == f && left.count(p[1]) > 0; }))
+        ends.push_back(f);
+    if (ends.empty()) return !left.empty();
+    for (const Face_id f : ends) left.erase(f);
+  }
+}
+
 inline std::optional<Asked> any_asked(Question question, Random& random) {
   const harness::Fuzz_case drawn = any_case(random);
   if (harness::make(drawn).soup.face_count() > most_faces) return std::nullopt;
@@ -108,12 +135,27 @@ inline std::optional<Asked> any_asked(Question question, Random& random) {
   Asked asked(made);
   if (asked.pieces.empty() || asked.pieces.size() > most_faces) return std::nullopt;
   asked.truth = judge::truth_of(asked.made.soup, asked.made.query, asked.options);
+  if (asked.truth.order)
+    require(asked.truth.order->whole_faces_do() != overlaps_in_a_cycle(asked),
+            "no order of whole faces is right iff faces overlap in a cycle");
   if (!asked.truth.not_asked.empty()) {
     require(asked.truth.visible.empty() && asked.truth.hidden.empty(), "of what is not asked nothing is known");
     require(question != Question::see || !asked.scene.set_aside().empty(), "an eye may be asked about proper faces");
     return std::nullopt;
   }
   return asked;
+}
+
+/// Whether a point of a face is on an edge of it.
+inline bool is_on_border(const Polygon_soup& soup, Face_id face, const Exact_point& at) {
+  for (std::size_t l = 0; l < soup.loop_count(face); ++l) {
+    const auto loop = soup.loop(face, l);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Exact_point p = minus(soup.point(loop[i]), at), q = minus(soup.point(loop[(i + 1) % loop.size()]), at);
+      if (is_zero(cross(p, q)) && dot(p, q) <= 0) return true;
+    }
+  }
+  return false;
 }
 
 /// An answer to see or weak, and how it differs from the right one.

@@ -1,6 +1,7 @@
 #pragma once
 // Explanations: the line that refutes an answer does so, by rationals, and the share of the view is what is wrong.
 
+#include "judged_grades.h"
 #include "judged_questions.h"
 #include "measured_flat.h"
 
@@ -338,6 +339,15 @@ inline void try_why_not_met(Random& random) {
     require(line.by ? is_face(*line.by) : is_face(line.face), "what a ray meets first is named");
     require(line.at ? *line.at == at : line.to == at, "what a ray meets first is where it is told to be");
     if (line.by) require(line.face == *answer.first[told], "what was named is told of");
+    const Face_id named = line.by ? *line.by : line.face;
+    const Met_side side = std::find_if(first[told].begin(), first[told].end(), [&](const Face_hit& hit) {
+                            return hit.face == named;
+                          })->side;
+    require(names(line.words, " along itself") == (side == Met_side::along),
+            "a face that is met along itself is told to be");
+    require(
+        names(line.words, ", on its border") == (side != Met_side::along && is_on_border(asked->made.soup, named, at)),
+        "a border is told of iff a face is met there");
   } else {
     require(!line.by && names(line.words, "meets nothing") && line.face == *answer.first[told],
             "a ray that meets nothing is told to");
@@ -347,6 +357,28 @@ inline void try_why_not_met(Random& random) {
   require(are_near(why.share, static_cast<double>(wrong.size()) /
                                   static_cast<double>(query.rays.size() - answer.abstained.size())),
           "a share is of the rays that are answered for");
+}
+
+inline void try_why_not_in_order_of_parts(Random& random) {
+  const std::optional<Asked> asked = any_asked(Question::order, random);
+  if (!asked) return;
+  judge::Answer answer = Any_order(*asked, random).answer();
+  std::set<Face_id> in_parts;
+  for (judge::Drawn_face& drawn : answer.order) {
+    const auto owner = std::find(asked->owners.begin(), asked->owners.end(), drawn.face);
+    if (random.chance(1, 2) || std::count(owner, asked->owners.end(), drawn.face) != 1) continue;
+    if (drawn_as_part(asked->pieces[static_cast<std::size_t>(owner - asked->owners.begin())], drawn, random))
+      in_parts.insert(drawn.face);
+  }
+  const Grade grade = judge::grade(asked->truth, answer);
+  if (!grade.wrong()) return;
+  const Explanation why = judge::explain(asked->made.soup, asked->made.query, answer, grade, any_contract(random));
+  const auto is_left_out = [&](const std::array<Face_id, 2>& pair) {
+    return in_parts.count(pair[0]) + in_parts.count(pair[1]) > 0;
+  };
+  require(names(why.share_words, ", without faces drawn in parts") ==
+              std::any_of(grade.wrong_pairs.begin(), grade.wrong_pairs.end(), is_left_out),
+          "a share says where it leaves out faces in parts");
 }
 
 }  // namespace fuzz::judged_laws

@@ -83,7 +83,8 @@ inline void try_rays_past_a_corner(generate::Random& random) {
   const bool is_far = random.chance(1, 2);  // so that doubles do not tell what is met first
   const int apart = static_cast<int>(random.between(is_far ? 20 : 1, 44)),
             away = static_cast<int>(random.between(is_far ? 30 : 8, 44));
-  if (const std::size_t axis = random.below(6); axis < 3) along[axis] = way[axis] = 0;
+  const bool is_skew = random.chance(1, 2);  // all edges begin at the corner
+  if (const std::size_t axis = random.below(6); axis < 3 && !is_skew) along[axis] = way[axis] = 0;
   if (is_zero(cross(along, way))) return;
   const Rational step = generate::power_of_two(-apart), share = generate::integer(random, 0, 4);
   generate::Faces faces;
@@ -95,7 +96,7 @@ inline void try_rays_past_a_corner(generate::Random& random) {
     if (!spans_a_plane(faces.back())) return;
     std::rotate(faces.back().begin(), faces.back().begin() + static_cast<std::ptrdiff_t>(random.below(3)),
                 faces.back().end());
-    if (random.chance(1, 2)) std::reverse(faces.back().begin(), faces.back().end());
+    if (!is_skew && random.chance(1, 2)) std::reverse(faces.back().begin(), faces.back().end());
   }
   const Scene scene(generate::soup_of(faces));
   const Ray_tracer tracer(scene);

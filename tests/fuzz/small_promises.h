@@ -243,7 +243,7 @@ inline void try_seen_from_within(generate::Random& random) {
   for (const Piece& piece : scene.pieces())
     (random.chance(1, 2) ? found.hidden : random.chance(1, 2) ? found.undecided : found.visible).push_back(piece.face);
   const Weakly_visible before = found;
-  add_seen_from_within(scene, Weak_volume(box), random.chance(1, 2), found);
+  const std::vector<Face_id> within = add_seen_from_within(scene, Weak_volume(box), random.chance(1, 2), found);
   const auto has = [](const std::vector<Face_id>& all, Face_id face) {
     return std::binary_search(all.begin(), all.end(), face);
   };
@@ -253,6 +253,8 @@ inline void try_seen_from_within(generate::Random& random) {
     require(has(found.visible, f) == seen && has(found.hidden, f) == (!seen && has(before.hidden, f)) &&
                 has(found.undecided, f) == (!seen && has(before.undecided, f)),
             "what is within is visible, and all else is as it was");
+    const bool is_new = is_within[f] && !has(before.visible, f);
+    require(has(found.unproved, f) == is_new && has(within, f) == is_new, "what was not found before has no proof");
   }
 }
 

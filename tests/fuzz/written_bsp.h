@@ -254,6 +254,12 @@ inline void try_level(generate::Random& random) {
   const bool has_tree = random.chance(15, 16);
   Written_level written(random, has_tree);
   std::string file = written.file(random);
+  require(looks_like_quake_level(file), "a level is known by its first bytes");
+  require(!looks_like_quake_level(std::string_view(file).substr(0, random.below(124))),
+          "what is shorter than a header is no level");
+  std::string of_another_version = file;
+  of_another_version[random.below(4)] ^= static_cast<char>(1 << random.below(7));
+  require(!looks_like_quake_level(of_another_version), "a file of another version is no level");
   if (random.chance(1, 2) && spoil(file, written, random)) {
     require(is_refused<Input_error>([&] {
               read_quake_level({"written", file});

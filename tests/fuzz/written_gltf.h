@@ -150,15 +150,17 @@ struct Written_gltf {
   void align(std::size_t to) {
     while (bytes.size() % to != 0) bytes += '\0';
   }
-  /// An accessor of what was put since `begin`.
-  std::size_t accessor(std::size_t begin, int component, std::size_t count, const char* type, std::size_t stride) {
-    nlohmann::json view{{"buffer", 0}, {"byteOffset", begin}, {"byteLength", bytes.size() - begin}};
+  /// An accessor of what was put since `begin`, in a view that begins `lead` bytes before that.
+  std::size_t accessor(std::size_t begin, int component, std::size_t count, const char* type, std::size_t stride,
+                       std::size_t lead) {
+    nlohmann::json view{{"buffer", 0}, {"byteOffset", begin - lead}, {"byteLength", bytes.size() - begin + lead}};
     if (stride != 0) view["byteStride"] = stride;
     json["bufferViews"].push_back(view);
     json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
                                  {"componentType", component},
                                  {"count", count},
                                  {"type", type}});
+    if (lead != 0) json["accessors"].back()["byteOffset"] = lead;
     return json["accessors"].size() - 1;
   }
   std::string as_text() {
@@ -194,8 +196,10 @@ inline std::vector<std::array<Exact_point, 3>> any_primitive(generate::Random& r
   // 1. Points, with room between them or none.
   std::vector<Exact_point> points(3 + random.below(6));
   const std::size_t stride = random.chance(1, 2) ? 0 : 12 + 4 * random.below(3);
+  for (std::uint64_t k = random.below(4); k > 0; --k) file.put(2.0f);
   file.align(4);
   std::size_t begin = file.bytes.size();
+  const auto any_lead = [&]() -> std::size_t { return random.chance(1, 2) ? 0 : 4 * random.below(begin / 4 + 1); };
   for (Exact_point& p : points) {
     for (Rational& x : p) {
       const std::int64_t eighths = random.between(-40, 40);
@@ -204,7 +208,7 @@ inline std::vector<std::array<Exact_point, 3>> any_primitive(generate::Random& r
     }
     for (std::size_t k = 12; k < stride; k += 4) file.put(1.0f);
   }
-  primitive["attributes"] = {{"POSITION", file.accessor(begin, 5126, points.size(), "VEC3", stride)}};
+  primitive["attributes"] = {{"POSITION", file.accessor(begin, 5126, points.size(), "VEC3", stride, any_lead())}};
   // 2. Its corners.
   static constexpr std::array modes{4, 5, 6};
   const int mode = modes[random.below(3)];
@@ -229,8 +233,8 @@ inline std::vector<std::array<Exact_point, 3>> any_primitive(generate::Random& r
       else file.put(static_cast<std::uint32_t>(k));
     }
     static constexpr std::array components{5121, 5123, 5125};
-    if (corners.empty()) file.put(std::uint32_t{0});
-    primitive["indices"] = file.accessor(begin, components[width], corners.size(), "SCALAR", 0);
+    if (corners.empty() && random.chance(1, 2)) file.put(std::uint32_t{0});
+    primitive["indices"] = file.accessor(begin, components[width], corners.size(), "SCALAR", 0, any_lead());
   }
   // 3. Its triangles: of a strip each second one is turned round; those of a fan have its first corner last.
   std::vector<std::array<Exact_point, 3>> triangles;
