@@ -165,7 +165,6 @@ struct Looked {
   std::vector<Drawn_edge> edges() const { return hidden_lines(view, surface, 1); }
   std::vector<Drawn_crossing> crossings() const { return visible_crossings(view, surface, boxes, 1); }
 
- private:
   static Visible_options serial() {
     Visible_options options;
     options.threads = 1;
@@ -542,33 +541,39 @@ Cones<Exact_view> cut_apart(const Exact_view& view, Cones<Exact_view> cones, Ran
   return cones;
 }
 
-/// A view's field in parts of any shape, all of them or one: lines in them are those in all of it.
-Outcome check_parts_of_field(const Looked& whole, const Looked& part, const std::vector<Level>& field, Random& random) {
-  if (whole.scene.pieces().empty()) return {};
-  Cones<Exact_view> cones = cut_apart(part.view, field_of_view(part.view), random);
-  std::vector<Level> sides = field;
-  if (random.chance(1, 2)) {
-    cones = {cones[random.below(cones.size())]};
-    sides.clear();
-    for (const Exact_view::Plane& w : cones[0].sides) {
-      const std::array<Integer, 3> n = part.view.normal(w);
-      const Exact_point normal{Rational(n[0]), Rational(n[1]), Rational(n[2])};
-      sides.push_back({normal, dot(normal, part.view.eye())});
-    }
-  }
-  Visible_options serial;
-  serial.threads = 1;
-  const Visible_surface<Exact_view> surface = visible_surface(part.view, part.boxes, std::move(cones), serial);
+/// A half-space whose border holds an eye.
+Level beyond_eye(const std::array<Integer, 3>& n, const Exact_point& eye) {
+  const Exact_point normal{Rational(n[0]), Rational(n[1]), Rational(n[2])};
+  return {normal, dot(normal, eye)};
+}
+
+/// That what is visible of lines in a surface's cones, which have these sides, is what is visible without them.
+/// `where`: how messages call these.
+Outcome same_within(const Looked& whole, const Looked& part, const Visible_surface<Exact_view>& surface,
+                    const std::vector<Level>& sides, const std::string& where) {
   const std::vector<Drawn_edge> all = whole.edges(), some = hidden_lines(part.view, surface, 1);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Exact_point p = whole.scene.position(all[k].edge.p), q = whole.scene.position(all[k].edge.q);
     const std::optional<Interval> range = clipped(sides, p, q, {0, 1});
     if ((range ? visible_in(all[k].parts, *range) : std::vector<Interval>()) != visible_in(some[k].parts, {0, 1}))
-      return Outcome::failed(name_of(whole.scene, all[k]) + " is not visible in parts of the field as it is without");
+      return Outcome::failed(name_of(whole.scene, all[k]) + " is not visible in " + where + " as it is without");
   }
   if (within(whole.crossings(), sides) != within(visible_crossings(part.view, surface, part.boxes, 1), sides))
-    return Outcome::failed("lines where faces cross are not those in parts of the field as without");
+    return Outcome::failed("lines where faces cross are not those in " + where + " as without");
   return {};
+}
+
+/// A view's field in parts of any shape, all of them or one.
+Outcome check_parts_of_field(const Looked& whole, const Looked& part, std::vector<Level> sides, Random& random) {
+  if (whole.scene.pieces().empty()) return {};
+  Cones<Exact_view> cones = cut_apart(part.view, field_of_view(part.view), random);
+  if (random.chance(1, 2)) {
+    cones = {cones[random.below(cones.size())]};
+    sides.clear();
+    for (const Exact_view::Plane& w : cones[0].sides) sides.push_back(beyond_eye(part.view.normal(w), part.view.eye()));
+  }
+  return same_within(whole, part, visible_surface(part.view, part.boxes, std::move(cones), Looked::serial()), sides,
+                     "parts of the field");
 }
 
 Outcome check_field(const Posed_scene& posed, Random& random) {
@@ -577,24 +582,14 @@ Outcome check_field(const Posed_scene& posed, Random& random) {
   const bool spans = dot(cross(rays[0], rays[1]), rays[2]) > 0;  // of a pyramid, too
   std::vector<Level> field;
   try {
-    for (const std::array<Integer, 3>& n : field_of(rays)) {
-      const Exact_point normal{Rational(n[0]), Rational(n[1]), Rational(n[2])};
-      field.push_back({normal, dot(normal, posed.eye)});
-    }
+    for (const std::array<Integer, 3>& n : field_of(rays)) field.push_back(beyond_eye(n, posed.eye));
   } catch (const std::invalid_argument&) {
     return spans ? Outcome::failed("a field whose rays go around its inside is refused") : Outcome::not_applicable();
   }
   if (!spans) return Outcome::failed("a field whose rays do not go around its inside is taken for one");
   const Looked whole(posed), part(posed, rays);
-  const std::vector<Drawn_edge> all = whole.edges(), some = part.edges();
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Exact_point p = whole.scene.position(all[k].edge.p), q = whole.scene.position(all[k].edge.q);
-    const std::optional<Interval> range = clipped(field, p, q, {0, 1});
-    if ((range ? visible_in(all[k].parts, *range) : std::vector<Interval>()) != visible_in(some[k].parts, {0, 1}))
-      return Outcome::failed(name_of(whole.scene, all[k]) + " is not visible in the field as it is without");
-  }
-  if (within(whole.crossings(), field) != within(part.crossings(), field))
-    return Outcome::failed("lines where faces cross are not those in the field as without");
+  const Outcome inside = same_within(whole, part, part.surface, field, "the field");
+  if (inside.state == Outcome::State::failed) return inside;
   return check_parts_of_field(whole, part, field, random);
 }
 

@@ -572,10 +572,7 @@ inline void try_boxes_before_an_eye(generate::Random& random) {
 inline void eye_numbers(std::string_view bytes) {
   static constexpr std::array<void (*)(generate::Random&), 4> laws{try_view, try_view, try_boxes,
                                                                    try_boxes_before_an_eye};
-  Bytes from(bytes);
-  const auto law = laws[from.below(laws.size())];
-  generate::Random random(from.word());
-  law(random);
+  ask_one_of(laws, bytes);
 }
 
 }  // namespace fuzz

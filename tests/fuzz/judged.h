@@ -47,10 +47,7 @@ inline void judged(std::string_view bytes) {
                                             try_told_answer,
                                             try_told_nothing,
                                             try_flaw_of_solids};
-  Bytes from(bytes);
-  const std::size_t kind = from.below(laws.size());
-  generate::Random random(from.word());
-  laws[kind](random);
+  ask_one_of(laws, bytes);
 }
 
 }  // namespace fuzz

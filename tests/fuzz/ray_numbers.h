@@ -216,10 +216,7 @@ inline void ray_numbers(std::string_view bytes) {
   static constexpr std::array<void (*)(generate::Random&), 6> laws{
       try_rays_where_doubles_end, try_rays_in_large_scenes, try_rays_past_a_corner, try_wide_rays, try_wide_rays,
       try_rays_along_a_fan};
-  Bytes from(bytes);
-  const auto law = laws[from.below(laws.size())];
-  generate::Random random(from.word());
-  law(random);
+  ask_one_of(laws, bytes);
 }
 
 }  // namespace fuzz

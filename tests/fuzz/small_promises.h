@@ -584,10 +584,7 @@ inline void small_promises(std::string_view bytes) {
                                                                     try_fine_origins,
                                                                     try_seen_from_within,
                                                                     try_quoted};
-  Bytes from(bytes);
-  const auto law = laws[from.below(laws.size())];
-  generate::Random random(from.word());
-  law(random);
+  ask_one_of(laws, bytes);
 }
 
 }  // namespace fuzz

@@ -1,8 +1,12 @@
 #pragma once
 // What all targets share: how a finding is reported, and numbers from bytes.
 
+#include <sightline/harness/generate/random.h>
 #include <sightline/kernel/number.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -72,5 +76,14 @@ class Bytes {
  private:
   std::string_view rest_;
 };
+
+/// One of some laws, of what a generator draws.
+template <std::size_t count>
+void ask_one_of(const std::array<void (*)(generate::Random&), count>& laws, std::string_view bytes) {
+  Bytes from(bytes);
+  const auto law = laws[from.below(count)];
+  generate::Random random(from.word());
+  law(random);
+}
 
 }  // namespace fuzz

@@ -253,10 +253,7 @@ inline void sure_doubles(std::string_view bytes) {
   static constexpr std::array<void (*)(generate::Random&), 7> laws{try_bisector,     try_near_shaft,   try_near_shaft,
                                                                    try_chart_bounds, try_chart_bounds, try_flat_views,
                                                                    try_nearest_faces};
-  Bytes from(bytes);
-  const auto law = laws[from.below(laws.size())];
-  generate::Random random(from.word());
-  law(random);
+  ask_one_of(laws, bytes);
 }
 
 }  // namespace fuzz
