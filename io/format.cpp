@@ -1,6 +1,7 @@
 #include <sightline/io/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 
 namespace sightline {

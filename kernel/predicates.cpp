@@ -1,5 +1,7 @@
 #include <sightline/kernel/predicates.h>
 
+#include <type_traits>
+
 namespace sightline {
 
 namespace {

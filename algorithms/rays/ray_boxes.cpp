@@ -3,6 +3,7 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 

@@ -5,6 +5,8 @@
 #include <set>
 #include <stdexcept>
 #include <tuple>
+#include <type_traits>
+#include <utility>
 
 namespace sightline::report {
 

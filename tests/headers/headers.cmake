@@ -1,11 +1,14 @@
 # The tests of public headers and of the pages' examples: each compiles alone. Part of the top level's CMakeLists.txt, if SIGHTLINE_TESTS.
 
 # Each header alone (tests/package compiles all at once, as they are installed, by another compiler). Headers of which each includes the next,
-# directly or not, share a unit, the innermost first; and what includes the header that leads a group is compiled with that precompiled. So no header finds anything but what it includes itself, and most is compiled once.
+# directly or not, share a unit, the innermost first; and what includes the header that leads a group is compiled with that precompiled. So no header
+# finds anything of ours but what it includes itself, and most is compiled once. The standard library's are precompiled for all: tests/includes
+# knows which of them a header needs.
 file(GLOB_RECURSE headers RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS kernel/*.h algorithms/*.h io/*.h harness/*.h)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${headers})  # what includes what
 list(APPEND headers ${front_door})
 list(SORT headers)
+set_property(GLOBAL PROPERTY of_the_standard "")
 function(find_reached header)  # into reached_<header>: those of ours that it includes, directly or not
   get_property(is_known GLOBAL PROPERTY reached_${header} SET)
   if(is_known)
@@ -16,6 +19,9 @@ function(find_reached header)  # into reached_<header>: those of ours that it in
   if(NOT header MATCHES "/")  # <sightline/sightline.h> and its like stand in a folder of that name
     set(file "sightline/${header}")
   endif()
+  file(STRINGS "${file}" lines REGEX "^#include <[a-z_]+>")
+  list(TRANSFORM lines REPLACE "^#include (<[a-z_]+>).*" "\\1")
+  set_property(GLOBAL APPEND PROPERTY of_the_standard ${lines})
   file(STRINGS "${file}" lines REGEX "^#include <sightline/")
   list(TRANSFORM lines REPLACE "^#include <sightline/(.*)>.*" "\\1" OUTPUT_VARIABLE included)
   set(reached ${included})
@@ -69,6 +75,8 @@ foreach(page IN LISTS pages)
     math(EXPR number "${number} + 1")
   endwhile()
 endforeach()
+get_property(of_the_standard GLOBAL PROPERTY of_the_standard)
+list(REMOVE_DUPLICATES of_the_standard)
 set(header_groups "")
 foreach(leader IN ITEMS kernel/traits/exact_traits.h kernel/traits/point_traits.h kernel/scene/scene.h kernel/scene/polygon_soup.h kernel/number.h none)
   string(MAKE_C_IDENTIFIER "headers_after_${leader}" target)
@@ -104,6 +112,7 @@ foreach(leader IN ITEMS kernel/traits/exact_traits.h kernel/traits/point_traits.
   endforeach()
   list(REMOVE_ITEM examples ${units})
   add_library(${target} OBJECT EXCLUDE_FROM_ALL ${units})
+  target_precompile_headers(${target} PRIVATE ${of_the_standard})
   if(NOT leader STREQUAL "none")
     target_precompile_headers(${target} PRIVATE <sightline/${leader}>)
   endif()

@@ -1,5 +1,6 @@
 // Near to far by one tree, what is covered in another, against the visible surface.
 
+#include "../sample.h"
 #include "same_surfaces.h"
 
 #include <sightline/algorithms/bsp/build.h>
@@ -46,7 +47,8 @@ void expect_trees_see(const Polygon_soup& soup, const Exact_point& eye) {
 }
 /// A convex body, turned, whose tree cuts faces by axis planes; eyes inside, and in such a plane.
 TEST(Bsp2d_surfaces, of_scenes_cut_by_planes_of_no_face) {
-  const Polygon_soup soup = generate::rotated(generate::convex_sphere(120, 1), generate::rotation(3, 1, 1, 0));
+  const std::size_t faces = test_scenes::is_sanitized() ? 50 : 120;
+  const Polygon_soup soup = generate::rotated(generate::convex_sphere(faces, 1), generate::rotation(3, 1, 1, 0));
   const Scene scene(soup);
   const Exact_tree tree = build_bsp(Exact_traits(scene));
   EXPECT_GT(tree.counters.free_planes, 0u);

@@ -29,6 +29,28 @@ TEST(IncludeRules, the_tree_keeps_them) {
 
 TEST(IncludeRules, the_tree_has_no_cycle) { EXPECT_EQ(cycle(SIGHTLINE_SOURCE_DIR), ""); }
 
+// Examples are compiled with all of the standard library precompiled, as headers are (tests/headers).
+TEST(IncludeRules, examples_of_pages_include_what_they_use) {
+  const fs::path root = SIGHTLINE_SOURCE_DIR;
+  std::vector<fs::path> pages{root / "README.md"};
+  for (const char* layer : library_layers)
+    for (const auto& entry : fs::recursive_directory_iterator(root / layer))
+      if (entry.path().extension() == ".md") pages.push_back(entry.path());
+  std::size_t examples = 0;
+  for (const fs::path& page : pages) {
+    std::ifstream in(page);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    for (std::size_t begin = 0; (begin = text.find("```cpp\n", begin)) != std::string::npos; ++examples) {
+      begin += 7;
+      const std::string example = text.substr(begin, text.find("```", begin) - begin);
+      std::istringstream once(example), again(example);
+      for (const auto& [line, what] : missing_headers(again, standard_headers(root, includes_of(once))))
+        ADD_FAILURE() << page << ": example, line " << line << ": " << what;
+    }
+  }
+  EXPECT_GT(examples, 20u);
+}
+
 // No failure: a header this long asks to be read again, and perhaps to be cut in two.
 TEST(IncludeRules, long_files_are_named) {
   constexpr std::size_t many = 600;
@@ -150,6 +172,17 @@ TEST_F(PlantedBreach, a_dependency_that_is_not_announced) {
   write("kernel/plane.h", "#pragma once\n#include <mpfr.h>\n#include <CGAL/Gmpq.h>\n#include <Eigen/Core>\n");
   EXPECT_EQ(found(), (Found{"kernel/plane.h:2: <mpfr.h> is not among the dependencies in CMakeLists.txt",
                             "kernel/plane.h:4: <Eigen/Core> is not among the dependencies in CMakeLists.txt"}));
+}
+
+TEST_F(PlantedBreach, a_standard_header_that_is_missing) {
+  write("kernel/plane.h",
+        "#pragma once\n#include <sightline/kernel/number.h>\n// std::array\nstd::vector<int> f();\n"
+        "const char* g(std::string s = \"std::map\", std::vector<std::string> t);  // of <vector>\nint h(std::what);\n"
+        "std::size_t n;\n");
+  write("algorithms/order.h", "#pragma once\n#include <string>\n#include <sightline/kernel/plane.h>\nstd::string s;\n");
+  EXPECT_EQ(found(), (Found{"kernel/plane.h:5: uses std::string without <string>",
+                            "kernel/plane.h:6: std::what is not in tests/includes/standard_names.h",
+                            "kernel/plane.h:7: uses std::size_t without <cstddef>"}));
 }
 
 TEST_F(PlantedBreach, a_cycle) {

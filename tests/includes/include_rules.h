@@ -1,15 +1,20 @@
 #pragma once
 // Which file may include which: kernel <- {algorithms, io} <- sightline <- harness <- apps, and finer rules for some
-// rooms.
+// rooms; and that a file of the library includes what it uses of the standard library, itself or by our headers.
+
+#include "standard_names.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <istream>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace include_rules {
@@ -26,10 +31,9 @@ struct Include {
   std::string name;
 };
 
-/// The include directives of a file, in order; comments that hold one are not directives.
-inline std::vector<Include> includes_of(const std::filesystem::path& file) {
+/// The include directives of a text, in order; comments that hold one are not directives.
+inline std::vector<Include> includes_of(std::istream& in) {
   std::vector<Include> found;
-  std::ifstream in(file);
   std::string text;
   for (std::size_t line = 1; std::getline(in, text); ++line) {
     // blanks # blanks include blanks <name> or "name"
@@ -45,6 +49,11 @@ inline std::vector<Include> includes_of(const std::filesystem::path& file) {
     found.push_back({line, open, std::string(rest.substr(0, rest.find(open == '<' ? '>' : '"')))});
   }
   return found;
+}
+
+inline std::vector<Include> includes_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return includes_of(in);
 }
 
 /// The sources below root/layer, as sorted paths relative to root.
@@ -119,6 +128,46 @@ inline bool lets_in(const Room& room, const std::string& header) {
   });
 }
 
+/// Our own header's place below the root: the front door stands in a folder of that name.
+inline std::string own_file(const std::string& include) {
+  return include.find('/', 10) == std::string::npos ? include : include.substr(10);
+}
+
+/// The headers of the standard library that lines of a file include, and our own that these include, directly or not.
+inline std::set<std::string, std::less<>> standard_headers(const std::filesystem::path& root,
+                                                           const std::vector<Include>& first) {
+  std::set<std::string, std::less<>> found;
+  std::vector<Include> left = first;
+  while (!left.empty()) {
+    const Include include = left.back();
+    left.pop_back();
+    if (!found.insert(include.name).second || !include.name.starts_with("sightline/")) continue;
+    const std::vector<Include> more = includes_of(root / own_file(include.name));
+    left.insert(left.end(), more.begin(), more.end());
+  }
+  for (const char* const stream :
+       {"fstream", "iostream", "istream", "ostream", "sstream"})  // which are derived from it
+    if (found.contains(stream)) found.insert("ios");
+  return found;
+}
+
+/// What lines use of the standard library without its header, as "line: what is wrong"; each name once.
+inline std::vector<std::pair<std::size_t, std::string>> missing_headers(
+    std::istream& in, const std::set<std::string, std::less<>>& included) {
+  std::vector<std::pair<std::size_t, std::string>> found;
+  std::set<std::string> seen;
+  std::string text;
+  for (std::size_t line = 1; std::getline(in, text); ++line)
+    for (const std::string& name : standard_names_of(text)) {
+      if (!seen.insert(name).second) continue;
+      const std::set<std::string_view> headers = headers_of(name);
+      if (headers.empty()) found.emplace_back(line, "std::" + name + " is not in tests/includes/standard_names.h");
+      else if (std::none_of(headers.begin(), headers.end(), [&](std::string_view h) { return included.contains(h); }))
+        found.emplace_back(line, "uses std::" + name + " without <" + std::string(*headers.begin()) + '>');
+    }
+  return found;
+}
+
 inline constexpr std::array<const char*, 5> library_layers{"kernel", "algorithms", "io", "harness", "sightline"};
 
 /// Every breach of the rules, as "file:line: what is wrong"; sorted by file. Empty: all is well.
@@ -150,6 +199,12 @@ inline std::vector<std::string> breaches(const Rules& rules) {
         const auto folder = [](const std::string& name) { return name.substr(0, name.rfind('/')); };
         if (includes.empty() || (has_own ? includes.front().name != own : folder(includes.front().name) != folder(own)))
           report(1, "does not begin with <" + own + '>');
+      }
+
+      if (library) {
+        std::ifstream in(path);
+        for (const auto& [line, what] : missing_headers(in, standard_headers(rules.root, includes_of(path))))
+          report(line, what);
       }
 
       for (const auto& [line, open, name] : includes_of(path)) {
@@ -195,9 +250,7 @@ inline std::string cycle(const std::filesystem::path& root) {
     if (state[file] == 1) return true;
     state[file] = 1;
     for (const Include& include : includes_of(root / file))
-      if (include.name.starts_with("sightline/") &&
-          self(self, include.name.find('/', 10) == std::string::npos ? include.name : include.name.substr(10)))
-        return true;
+      if (include.name.starts_with("sightline/") && self(self, own_file(include.name))) return true;
     state[file] = 2;
     path.pop_back();
     return false;

@@ -28,6 +28,7 @@ namespace program {
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -57,8 +58,9 @@ inline const std::string executable =
 
 struct Limits {
   double seconds = 60;
-  std::size_t mebibytes = 4096;  ///< of addresses, with those of threads' stacks
-  std::size_t file_blocks = 0;   ///< of 512 bytes, of a file that is written; 0: no limit
+  std::size_t mebibytes = 4096;                            ///< of addresses, with those of threads' stacks
+  std::size_t file_blocks = 0;                             ///< of 512 bytes, of a file that is written; 0: no limit
+  std::function<bool()> is_enough = [] { return false; };  ///< once it says so the run is killed
 };
 
 /// What became of a run of the program.
@@ -163,10 +165,11 @@ class Program : public testing::Test {
     rusage used{};
     auto pause = std::chrono::microseconds(500);
     while (wait4(child, &status, WNOHANG, &used) == 0) {
-      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > allowed) {
+      const bool is_late = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > allowed;
+      if (is_late || limits.is_enough()) {
         kill(child, SIGKILL);
         wait4(child, &status, 0, &used);
-        result.ended = "no end within " + std::to_string(allowed) + " s";
+        result.ended = is_late ? "no end within " + std::to_string(allowed) + " s" : "killed by the test";
         break;
       }
       std::this_thread::sleep_for(pause);

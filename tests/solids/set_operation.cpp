@@ -579,7 +579,7 @@ TEST(Set_operations, of_real_solids_in_pairs_with_a_plane_in_common_add_up) {
   generate::Random random(1);
   std::size_t meeting = 0, pairs = 0;
   for (std::size_t i = 0; i < scenes.size(); ++i)
-    for (std::size_t j = i; j < scenes.size(); j += test_scenes::is_sanitized() ? 40 : 6) {
+    for (std::size_t j = i; j < scenes.size(); j += test_scenes::is_sanitized() ? 160 : 6) {
       const generate::Solid_pair pair = generate::pair_on_a_plane(scenes[i].second, scenes[j].second, random);
       const std::vector<Polygon_soup> solids(pair.begin(), pair.end());
       EXPECT_TRUE(may_share_a_plane(solids)) << scenes[i].first << " and " << scenes[j].first;

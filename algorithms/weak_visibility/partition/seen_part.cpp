@@ -1,6 +1,7 @@
 #include <sightline/algorithms/weak_visibility/partition/seen_part.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
