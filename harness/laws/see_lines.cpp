@@ -7,6 +7,8 @@
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/point_visibility/visible_region.h>
 #include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/laws/line_flats.h>
+#include <sightline/harness/laws/line_scenes.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -20,133 +22,8 @@
 namespace sightline::harness {
 namespace {
 
-using Points = std::vector<Exact_point>;
-using Interval = std::pair<Rational, Rational>;
-
-Exact_point between(const Exact_point& p, const Rational& t, const Exact_point& q) {
-  return {Rational(p[0] + t * (q[0] - p[0])), Rational(p[1] + t * (q[1] - p[1])), Rational(p[2] + t * (q[2] - p[2]))};
-}
-
-// ---- By definition, in rationals
-
-/// A plane, or a half-space.
-struct Level {
-  Exact_point normal;
-  Rational offset;
-  Rational height(const Exact_point& p) const { return Rational(dot(normal, p) - offset); }
-};
-
-struct Flat_piece {
-  Points corners;
-  Level plane;
-  std::vector<Level> walls;  // through its edges, the piece on their positive sides
-  Face_id face;
-
-  bool is_in_plane_of(const Flat_piece& other) const {
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](const Exact_point& p) { return other.plane.height(p) == 0; });
-  }
-};
-using Flat_pieces = std::vector<Flat_piece>;
-
-Flat_pieces flat_pieces(const Scene& scene) {
-  Flat_pieces flats;
-  for (const Piece& piece : scene.pieces()) {
-    Flat_piece flat{{}, {}, {}, piece.face};
-    for (const Piece_corner& corner : scene.corners(piece)) flat.corners.push_back(scene.position(corner.point));
-    const Points& c = flat.corners;
-    flat.plane.normal = cross(minus(c[1], c[0]), minus(c[2], c[0]));
-    flat.plane.offset = dot(flat.plane.normal, c[0]);
-    for (std::size_t k = 0; k < c.size(); ++k) {
-      const Exact_point inward = cross(flat.plane.normal, minus(c[(k + 1) % c.size()], c[k]));
-      flat.walls.push_back({inward, dot(inward, c[k])});
-    }
-    flats.push_back(std::move(flat));
-  }
-  return flats;
-}
-
-/// The part of [least, most] of t for which p + t (q - p) is inside or on all walls; none where it has no length.
-/// `touches`: one that has no length counts too.
-std::optional<Interval> clipped(const std::vector<Level>& walls, const Exact_point& p, const Exact_point& q,
-                                Interval range, bool touches = false) {
-  auto& [least, most] = range;
-  for (const Level& wall : walls) {
-    const Rational at = wall.height(p), rise = Rational(wall.height(q) - at);
-    if (rise == 0 && at < 0) return std::nullopt;
-    if (rise > 0) least = std::max(least, Rational(-at / rise));
-    if (rise < 0) most = std::min(most, Rational(-at / rise));
-  }
-  if (least < most || (touches && least == most)) return range;
-  return std::nullopt;
-}
-
-/// Whether a point of a piece's plane is on the piece.
-bool is_within_walls(const Flat_piece& flat, const Exact_point& x) {
-  return std::all_of(flat.walls.begin(), flat.walls.end(), [&](const Level& wall) { return wall.height(x) >= 0; });
-}
-
-/// Whether the open segment from p to q meets a closed piece.
-bool blocks(const Flat_piece& flat, const Exact_point& p, const Exact_point& q) {
-  const Rational from = flat.plane.height(p), to = flat.plane.height(q);
-  if (from == 0 && to == 0) {
-    const std::optional<Interval> common = clipped(flat.walls, p, q, {0, 1}, true);
-    return common && common->first < 1 && common->second > 0;
-  }
-  if (from * to >= 0) return false;
-  const Exact_point at = between(p, Rational(from / (from - to)), q);
-  return is_within_walls(flat, at);
-}
-bool is_sightline(const Flat_pieces& flats, const Exact_point& eye, const Exact_point& q) {
-  return std::none_of(flats.begin(), flats.end(), [&](const Flat_piece& flat) { return blocks(flat, eye, q); });
-}
-
-/// The faces that hold a point of a line, in planes whose pieces hold what is next to it on both sides of the line;
-/// none where these are not two planes.
-std::set<Face_id> crossing_at(const Flat_pieces& flats, const Exact_point& x, const Exact_point& direction) {
-  std::vector<std::size_t> around;
-  for (std::size_t i = 0; i < flats.size(); ++i)
-    if (flats[i].plane.height(x) == 0 && dot(flats[i].plane.normal, direction) == 0) around.push_back(i);
-  std::set<Face_id> faces;
-  std::size_t planes = 0;
-  for (const std::size_t i : around) {
-    const auto together = [&](std::size_t k) { return flats[k].is_in_plane_of(flats[i]); };
-    if (*std::find_if(around.begin(), around.end(), together) != i) continue;
-    std::array<std::set<Face_id>, 2> beside;
-    for (std::size_t side = 0; side < 2; ++side) {
-      Exact_point to = cross(direction, flats[i].plane.normal);
-      if (side == 1) to = minus({0, 0, 0}, to);
-      for (const std::size_t k : around) {
-        const auto keeps = [&](const Level& wall) {
-          const Rational at = wall.height(x);
-          return at > 0 || (at == 0 && dot(wall.normal, to) >= 0);
-        };
-        if (together(k) && std::all_of(flats[k].walls.begin(), flats[k].walls.end(), keeps))
-          beside[side].insert(flats[k].face);
-      }
-    }
-    if (beside[0].empty() || beside[1].empty()) continue;
-    ++planes;
-    for (const auto& some : beside) faces.insert(some.begin(), some.end());
-  }
-  return planes < 2 ? std::set<Face_id>() : faces;
-}
-
-/// What two pieces have in common, where they go through each other: an open segment, if there is one.
-std::optional<std::array<Exact_point, 2>> common_segment(const Flat_piece& f, const Flat_piece& g) {
-  std::vector<Exact_point> on;  // where f's edges meet g's plane
-  const auto at = [](const Flat_piece& of, std::size_t k) { return of.corners[k % of.corners.size()]; };
-  for (std::size_t k = 0; k < f.corners.size(); ++k) {
-    const Exact_point p = at(f, k), q = at(f, k + 1);
-    const Rational from = g.plane.height(p), to = g.plane.height(q);
-    if (from == 0) on.push_back(p);
-    if (from * to < 0) on.push_back(between(p, Rational(from / (from - to)), q));
-  }
-  if (on.size() != 2) return std::nullopt;
-  const std::optional<Interval> common = clipped(g.walls, on[0], on[1], {0, 1});
-  if (!common) return std::nullopt;
-  return std::array{between(on[0], common->first, on[1]), between(on[0], common->second, on[1])};
-}
+using namespace line_flats;
+using generate::Points;
 
 // ---- What the method says
 
@@ -372,93 +249,6 @@ Outcome check_crossings_on(const Looked& looked, const Flat_pieces& flats, Rando
   return {};
 }
 
-/// Small faces far from all others, so that these are in trees of many boxes.
-void add_bystanders(generate::Faces& faces, Random& random) {
-  for (std::uint64_t count = 5 + random.below(26); count > 0; --count) {
-    Exact_point p = generate::lattice(random, 60), q = p, r = p;
-    p[random.below(3)] += 100;
-    q[random.below(3)] += 1;
-    r[random.below(3)] -= 2;
-    faces.push_back({p, generate::along(p, 1, minus(q, r)), generate::along(p, 1, generate::lattice(random, 2))});
-  }
-}
-
-/// Pages through one line, some of which end on it, the eye in the plane of one of them more often than not, and strips
-/// between the eye and the line; or, in a scene of many faces, a valley that hides the others but for what is on its
-/// bottom.
-Posed_scene any_pages(Random& random) {
-  using namespace generate;
-  Posed_scene posed;
-  Faces faces;
-  const auto number = [&](std::int64_t least, std::int64_t most) { return integer(random, least, most); };
-  const auto [u, v] = directions(random, 2);
-  Exact_point axis = lattice(random, 2);
-  while (sgn(dot(axis, cross(u, v))) == 0) axis = lattice(random, 2);
-  const Exact_point origin = lattice(random, 3);
-  const auto on_line = [&](const Rational& height) { return along(origin, height, axis); };
-  std::vector<Exact_point> ways;
-  for (std::uint64_t pages = 3 + random.below(3); pages > 0; --pages) {
-    Exact_point way = along({0, 0, 0}, number(1, 2), u);
-    way = along(way, number(-2, 2), v);
-    if (random.chance(1, 4)) way = v;
-    ways.push_back(way);
-    const bool crosses = random.chance(3, 4);
-    const Rational left = crosses ? number(-2, -1) : number(-2, 0),
-                   right = crosses ? number(1, 2) : left + number(1, 3), low = number(-2, 2), high = low + number(1, 4);
-    Points page;
-    for (const auto& [across, up] : {std::array{left, low}, {right, low}, {right, high}, {left, high}})
-      page.push_back(along(on_line(up), across, way));
-    if (random.chance(1, 4)) page.erase(page.begin() + static_cast<std::ptrdiff_t>(random.below(page.size())));
-    faces.push_back(either_way(page, random));
-  }
-  posed.eye = random.chance(1, 4) ? lattice(random, 6) : along(on_line(number(-3, 4)), number(-5, -1), ways[0]);
-  for (std::uint64_t strips = random.below(3); strips > 0; --strips) {
-    const Exact_point to = on_line(number(-8, 16) / 4), at = along(posed.eye, number(1, 3) / 4, minus(to, posed.eye));
-    const Exact_point wide = lattice(random, 2), high = along({0, 0, 0}, number(1, 8) / 16, axis);
-    if (is_zero(cross(wide, high))) continue;
-    Points strip;
-    for (const auto& [across, up] : {std::array{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
-      strip.push_back(along(along(at, across, wide), up, high));
-    faces.push_back(either_way(strip, random));
-  }
-  if (random.chance(3, 4)) add_bystanders(faces, random);
-  if (random.chance(1, 2)) {
-    const Exact_point from = on_line(-20), to = on_line(20), aside = lattice(random, 2);
-    for (const int side : {-1, 1}) {
-      const Exact_point slope = along(minus(posed.eye, on_line(0)), ratio(side, 8), aside);
-      faces.push_back({from, to, along(to, ratio(1, 2), slope), along(from, ratio(1, 2), slope)});
-    }
-  }
-  shuffle(faces, random);
-  posed.soup = soup_of(faces);
-  return posed;
-}
-
-/// Polygons of lattice points, mostly concave, of which corners are in line with diagonals and with sides; and fins on
-/// some of their sides.
-Posed_scene any_outlines(Random& random) {
-  using namespace generate;
-  Posed_scene posed;
-  Faces faces;
-  const auto [u, v] = directions(random, 2);
-  const Exact_point origin = lattice(random, 3);
-  const std::int64_t reach = random.between(1, 3);
-  for (std::uint64_t outlines = 1 + random.below(3); outlines > 0; --outlines)
-    for (int tries = 0; tries < 8; ++tries) {
-      Points outline;
-      for (std::uint64_t corners = 4 + random.below(5); corners > 0; --corners)
-        outline.push_back(lattice_in_plane(random, origin, u, v, -reach, reach));
-      if (Scene(soup_of({outline})).pieces().size() < 2) continue;
-      faces.push_back(outline);
-      if (random.chance(1, 2)) faces.push_back({outline[0], outline[1], lattice(random, 4)});
-      break;
-    }
-  posed.eye = lattice(random, 6);
-  shuffle(faces, random);
-  posed.soup = soup_of(faces);
-  return posed;
-}
-
 /// A scene that nobody was told of, in one line.
 std::string text_of_scene(const Posed_scene& posed) {
   const auto text = [](const Exact_point& p) {
@@ -601,7 +391,7 @@ Check lines_check() {
             const Outcome outcome = check_lines(posed, random);
             if (outcome.state == Outcome::State::failed || !random.chance(1, 4)) return outcome;
             const bool is_pages = random.chance(1, 2);
-            const Posed_scene own = is_pages ? any_pages(random) : any_outlines(random);
+            const Posed_scene own = is_pages ? line_scenes::any_pages(random) : line_scenes::any_outlines(random);
             const Outcome of_own = check_lines(own, random);
             if (of_own.state != Outcome::State::failed) return outcome;
             return Outcome::failed((is_pages ? "of pages through a line, " : "of outlines in a plane, ") +
