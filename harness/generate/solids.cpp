@@ -238,16 +238,29 @@ Polygon_soup thin_tetrahedron(Random& random) {
   }
 }
 
-Polygon_soup tetrahedron_upon_a_box(Random& random) {
-  Faces faces = box(at(-2, -2, 0), at(2, 2, 1));
-  const Rational from = integer(random, -1, 1), to = integer(random, -1, 1), height = integer(random, 2, 3);
-  const Exact_point p = at(-3, from, 1), q = at(3, to, 1), r = at(-1, 2, height), s = at(1, -2, height);
-  add(faces, {{p, r, q}, {p, q, s}, {p, s, r}, {q, r, s}});
+/// So that its corners are rounded to floats by much.
+static Polygon_soup turned_far_away(const Faces& faces, Random& random) {
   const Exact_point turn = lattice(random, 3);
   const Rational far = power_of_two(static_cast<int>(random.between(16, 20)));
   return translated(rotated(soup_of(faces), rotation(4, turn[0].get_num().get_si(), turn[1].get_num().get_si(),
                                                      turn[2].get_num().get_si())),
                     {far, ratio(1, 3), far / 3});
+}
+
+Polygon_soup tetrahedron_upon_a_box(Random& random) {
+  Faces faces = box(at(-2, -2, 0), at(2, 2, 1));
+  const Rational from = integer(random, -1, 1), to = integer(random, -1, 1), height = integer(random, 2, 3);
+  const Exact_point p = at(-3, from, 1), q = at(3, to, 1), r = at(-1, 2, height), s = at(1, -2, height);
+  add(faces, {{p, r, q}, {p, q, s}, {p, s, r}, {q, r, s}});
+  return turned_far_away(faces, random);
+}
+
+Polygon_soup tetrahedron_below_a_top(Random& random) {
+  Faces faces = box(at(-4, -4, -4), at(4, 4, 1));
+  const Rational from = integer(random, -1, 1), to = integer(random, -1, 1), depth = integer(random, 0, 1);
+  const Exact_point p = at(-3, from, 1), q = at(3, to, 1), r = at(-1, 2, -depth), s = at(1, -2, -depth);
+  add(faces, {{p, r, q}, {p, q, s}, {p, s, r}, {q, r, s}});  // mirrored, so its fronts look into the hollow
+  return turned_far_away(faces, random);
 }
 
 }  // namespace sightline::generate

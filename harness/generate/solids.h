@@ -59,4 +59,7 @@ Polygon_soup thin_tetrahedron(Random& random);
 /// origin: rounded to floats, the edge may go through the face.
 Polygon_soup tetrahedron_upon_a_box(Random& random);
 
+/// A box with a hollow tetrahedron in it, of which an edge lies in the box's top, from below; turned, and far away too.
+Polygon_soup tetrahedron_below_a_top(Random& random);
+
 }  // namespace sightline::generate

@@ -180,6 +180,23 @@ struct Crossing_flaw {
   bool nothing_meets = true;  // of what is asked, and all is
 };
 
+/// A face with all corners on one line has nothing inside that could cross itself.
+std::string flaw_of_selves(const Rounded_surface& near) {
+  for (const auto& [a, b] : near.crossing) {
+    if (a != b) continue;
+    const auto loop = near.soup.loop(a);
+    bool is_on_a_line = true;
+    for (const Point_id p : loop)
+      for (const Point_id q : loop) {
+        const Exact_point origin = near.soup.point(loop[0]);
+        is_on_a_line =
+            is_on_a_line && is_zero(cross(minus(near.soup.point(p), origin), minus(near.soup.point(q), origin)));
+      }
+    if (is_on_a_line) return "face " + std::to_string(a) + " is a line, and said to cross itself";
+  }
+  return {};
+}
+
 /// A pair is told iff it meets now and did not, or passes now and did not.
 Crossing_flaw flaw_of_crossing(const Polygon_soup& exact, const Rounded_surface& near) {
   constexpr std::size_t most_faces = 24;  // all pairs of them
@@ -291,6 +308,7 @@ std::string flaw_of_rounded(const Polygon_soup& exact, Rounding to, Random& rand
     }
     bool nothing_meets = false;
     if (near.rounds == 0) {
+      if (const std::string flaw = flaw_of_selves(near); !flaw.empty()) return name + flaw;
       const Crossing_flaw crossing = flaw_of_crossing(exact, near);
       if (!crossing.what.empty()) return name + crossing.what;
       nothing_meets = crossing.nothing_meets && near.collapsed.empty();
@@ -319,7 +337,10 @@ std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& ra
   if (const std::string flaw = flaw_of_rounded(exact, to, random); !flaw.empty()) return flaw;
   if (const std::string flaw = flaw_of_rounded(generate::thin_tetrahedron(random), to, random); !flaw.empty())
     return "a thin tetrahedron, " + flaw;
-  if (!random.chance(1, 2)) return {};
+  if (random.chance(1, 2)) {
+    const std::string flaw = flaw_of_rounded(generate::tetrahedron_below_a_top(random), to, random);
+    return flaw.empty() ? flaw : "a tetrahedron below a top, " + flaw;
+  }
   const std::string flaw = flaw_of_rounded(generate::tetrahedron_upon_a_box(random), to, random);
   return flaw.empty() ? flaw : "a tetrahedron upon a box, " + flaw;
 }

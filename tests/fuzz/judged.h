@@ -20,7 +20,14 @@ namespace fuzz {
 inline void judged(std::string_view bytes) {
   using namespace judged_laws;
   using Law = void (*)(generate::Random&);
-  static constexpr std::array<Law, 27> laws{try_case_with_straight_corners,
+  static constexpr std::array<Law, 34> laws{try_words_of_readings,
+                                            try_grade_of_bent_faces,
+                                            try_part_of_no_face,
+                                            try_truth_without_rays,
+                                            try_touched_borders,
+                                            try_why_not_the_solid,
+                                            try_why_not_inside,
+                                            try_case_with_straight_corners,
                                             try_excused_rays,
                                             try_truth_without_time,
                                             try_face_zero,

@@ -81,6 +81,8 @@ class Told_answer {
 
   std::string some_wrong_entry() {
     const std::string beyond = std::to_string(faces_ + random_.below(3));
+    if (!is_json_ && question_ != Question::trace && random_.chance(1, 4))
+      return random_.chance(1, 2) ? "none" : "abstained none";  // which rays have alone
     if (!is_json_) return std::array<std::string, 6>{beyond, "-1", "1.5", "x", "0 0", "abstained -1"}[random_.below(6)];
     const std::array<std::string, 7> wrong{beyond, "-1", "1.5", "true", "[]", "{}", "{\"face\": 0}"};
     return wrong[random_.below(wrong.size())];
@@ -213,8 +215,11 @@ inline void try_told_nothing(Random& random) {
   const std::size_t faces = 1 + random.below(5), rays = question == Question::trace ? random.below(5) : 0;
   const bool as_json = random.chance(1, 2), answers = random.chance(1, 3);
   const std::string key = question == Question::order ? "order" : question == Question::see ? "visible" : "first";
-  const std::string text = as_json ? "{" + (answers ? "\"" + key + "\": [0], " : "") + "\"abstained\": \"all\"}"
-                                   : std::string(answers ? "0\n" : "") + "abstained all\n";
+  const bool lists_nothing = as_json && !answers && question != Question::trace && random.chance(1, 2);
+  const std::string list = answers ? "[0]" : "[]";
+  const std::string text =
+      as_json ? "{" + (answers || lists_nothing ? "\"" + key + "\": " + list + ", " : "") + "\"abstained\": \"all\"}"
+              : std::string(answers ? "0\n" : "") + "abstained all\n";
   judge::Answer read;
   const bool refused =
       is_refused<std::invalid_argument>([&] { read = judge::read_answer(text, question, faces, rays); });

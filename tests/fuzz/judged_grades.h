@@ -5,10 +5,15 @@
 
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/solids.h>
 #include <sightline/harness/judge/grade.h>
+#include <sightline/harness/judge/rays.h>
+#include <sightline/harness/judge/solids.h>
 #include <sightline/harness/judge/truth.h>
 #include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
 #include <sightline/sightline.h>
 
 #include <algorithm>
@@ -213,6 +218,97 @@ inline void try_contracts(Random& random) {
     for (const Mark limit : {Mark::out_of_memory, Mark::timed_out})
       require(!judge::breaks(contract, limit, {}), "limits of the judge's break no contract");
   }
+}
+
+/// A surface with bent faces has the volume of the triangles that a scene makes of them, wherever loops begin.
+inline void try_grade_of_bent_faces(Random& random) {
+  const generate::Faces first = generate::box({0, 0, 0}, {4, 4, 4}), second = generate::box({9, 0, 0}, {12, 3, 3});
+  const generate::Solid_pair solids{generate::soup_of(first), generate::soup_of(second)};
+  Query query;
+  query.question = Question::boolean;
+  query.operation = Set_operation::unite;
+  query.first = first.size();
+  const judge::Solid_truth truth = judge::solid_truth(generate::joined(solids), query, 1);
+  // 1. The answer: a corner moved outwards, loops begun anywhere.
+  const Exact_point from{4, 4, 4},
+      to{generate::integer(random, 4, 6), generate::integer(random, 4, 6), generate::integer(random, 4, 6)};
+  generate::Faces faces = first;
+  generate::add(faces, second);
+  for (generate::Points& face : faces) {
+    std::replace(face.begin(), face.end(), from, to);
+    std::rotate(face.begin(), face.begin() + static_cast<std::ptrdiff_t>(random.below(face.size())), face.end());
+  }
+  judge::Answer answer;
+  answer.surface = generate::soup_of(faces);
+  // 2. Its volume, by the scene's own triangles.
+  const Scene scene(*answer.surface);
+  Rational six_times;
+  for (const Piece& piece : scene.pieces()) {
+    const auto corners = scene.corners(piece);
+    const Exact_point p = scene.position(corners[0].point);
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+      six_times += dot(p, cross(scene.position(corners[k].point), scene.position(corners[k + 1].point)));
+  }
+  const Grade grade = judge::grade_solid(truth, answer);
+  require(grade.volume_error == nearest_double(Rational((six_times / 6 - (64 + 27)) / (64 + 27))),
+          "a bent face counts as the triangles that it is in a scene");
+}
+
+/// What is drawn of a face that is none changes no grade.
+inline void try_part_of_no_face(Random& random) {
+  const std::optional<Asked> asked = any_asked(Question::order, random);
+  if (!asked) return;
+  Polygon_soup soup = asked->made.soup;
+  const auto none = static_cast<Face_id>(soup.face_count());
+  const Exact_point p = generate::lattice(random, 4);
+  Exact_point q = p, r = p;
+  q[0] += 1;
+  r[0] += 2;
+  soup.add_face(generate::added(soup, {p, q, r}));  // on a line
+  const Truth truth = judge::truth_of(soup, asked->made.query, asked->options);
+  if (!truth.not_asked.empty()) return;
+  judge::Answer answer = Any_order(*asked, random).answer();
+  const Grade without = judge::grade(truth, answer);
+  answer.order.push_back(
+      {none, {generate::lattice(random, 4), generate::lattice(random, 4), generate::lattice(random, 4)}});
+  const Grade with = judge::grade(truth, answer);
+  require(with.wrong_pairs == without.wrong_pairs && with.wrong_visible == without.wrong_visible &&
+              with.wrong_hidden == without.wrong_hidden && with.judged == without.judged,
+          "a part of what is no face changes no grade");
+}
+
+/// Rays of which one has no direction, or none at all, are not asked about.
+inline void try_truth_without_rays(Random& random) {
+  const std::optional<Asked> asked = any_asked(Question::trace, random);
+  if (!asked) return;
+  Query query = asked->made.query;
+  const bool has_none = random.chance(1, 4);
+  if (has_none) query.rays.clear();
+  else
+    query.rays.insert(query.rays.begin() + static_cast<std::ptrdiff_t>(random.below(query.rays.size() + 1)),
+                      Exact_ray{query.eye, {0, 0, 0}});
+  const Truth truth = judge::truth_of(asked->made.soup, query, asked->options);
+  require(names(truth.not_asked, has_none ? "no ray" : "no direction") && truth.rays.empty(),
+          "rays without a direction are not asked about");
+}
+
+/// A ray that goes down on a face of any shape touches it iff it meets one of its edges.
+inline void try_touched_borders(Random& random) {
+  const auto number = [&] { return Rational(static_cast<long>(random.between(0, 4))); };
+  generate::Points loop;
+  for (std::size_t k = 3 + random.below(5); k > 0; --k) {
+    Exact_point p{number(), number(), 0};
+    while ((!loop.empty() && (p == loop.back())) || (k == 1 && p == loop.front())) p = {number(), number(), 0};
+    loop.push_back(std::move(p));
+  }
+  const Polygon_soup soup = generate::soup_of({loop});
+  const Exact_point at{number() / 2, number() / 2, 0};
+  Face_hit hit{};
+  hit.face = 0;
+  hit.t = 1;
+  hit.side = Met_side::front;
+  require(judge::touches(soup, {{at[0], at[1], 1}, {0, 0, -1}}, hit) == is_on_border(soup, 0, at),
+          "a hit is a touch iff it is on an edge");
 }
 
 }  // namespace fuzz::judged_laws

@@ -311,4 +311,18 @@ inline void try_words_of_kinds(Random& random) {
             "of each kind it is said how many are wrong");
 }
 
+/// What is said of a reading is not what was asked for: of sides, the others; and no two readings have the same words.
+inline void try_words_of_readings(Random& random) {
+  const bool two_sided = random.chance(1, 2);
+  const std::string sides = judge::words_of(Reading::other_sides, two_sided);
+  require(names(sides, "only fronts") == two_sided && names(sides, "from behind") == !two_sided,
+          "the other sides are those that were not asked for");
+  for (std::size_t q = 0; q < judge::question_names.size(); ++q) {
+    std::set<std::string> all;
+    const std::vector<Reading> readings = judge::readings_of(static_cast<Question>(q));
+    for (const Reading reading : readings) all.insert(judge::words_of(reading, two_sided));
+    require(all.size() == readings.size() && all.count("") == 0, "each reading has its own words");
+  }
+}
+
 }  // namespace fuzz::judged_laws

@@ -9,6 +9,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/judge/explain.h>
 #include <sightline/harness/judge/grade.h>
+#include <sightline/harness/judge/solids.h>
 #include <sightline/harness/judge/truth.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/trace.h>
@@ -22,6 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <set>
@@ -379,6 +381,80 @@ inline void try_why_not_in_order_of_parts(Random& random) {
   require(names(why.share_words, ", without faces drawn in parts") ==
               std::any_of(grade.wrong_pairs.begin(), grade.wrong_pairs.end(), is_left_out),
           "a share says where it leaves out faces in parts");
+}
+
+/// A point as explanations tell it.
+inline std::string told_point(const Exact_point& p) {
+  std::string text;
+  for (const Rational& x : p) {
+    std::array<char, 32> number;
+    std::snprintf(number.data(), number.size(), "%.4g", nearest_double(x));
+    text += (text.empty() ? "(" : ", ") + std::string(number.data());
+  }
+  return text + ")";
+}
+
+/// Of an answer that is too large everywhere, or too small, a point is told, whatever the contract looks for first.
+inline void try_why_not_the_solid(Random& random) {
+  const Rational overlap = generate::integer(random, 1, 3);
+  const generate::Faces first = generate::box({0, 0, 0}, {4, 4, 4}),
+                        second = generate::box({Rational(4 - overlap), 0, 0}, {Rational(8 - overlap), 4, 4}),
+                        both = generate::box({0, 0, 0}, {Rational(8 - overlap), 4, 4}),
+                        common = generate::box({Rational(4 - overlap), 0, 0}, {4, 4, 4});
+  Query query;
+  query.question = Question::boolean;
+  query.first = first.size();
+  const bool is_too_large = random.chance(1, 2);
+  query.operation = is_too_large ? Set_operation::intersect : Set_operation::unite;
+  const generate::Solid_pair solids{generate::soup_of(first), generate::soup_of(second)};
+  const Polygon_soup soup = generate::joined(solids);
+  judge::Answer answer;
+  answer.surface = generate::soup_of(is_too_large ? both : common);
+  const Grade grade = judge::grade_solid(judge::solid_truth(soup, query, 1), answer);
+  require(!grade.wrong_points.empty(), "the union is not the intersection");
+  const Explanation why = judge::explain(soup, query, answer, grade, any_contract(random));
+  require(why.refutation.has_value(), "a point tells why a solid is wrong");
+  const Exact_point& at = why.refutation->from;
+  const bool in_first = at[0] > 0 && at[0]<4, in_second = at[0]> 4 - overlap && at[0] < 8 - overlap;
+  require(in_first != in_second, "it is in one of both");
+  require(names(why.refutation->words, told_point(at)) && names(why.refutation->words, told_point(why.refutation->to)),
+          "words tell where it is");
+  require_told(why);
+}
+
+/// Of points of a solid one that the contract forbids is told, as it is.
+inline void try_why_not_inside(Random& random) {
+  Query query;
+  query.question = Question::boolean;
+  Grade grade;
+  for (Face_id f = 0, all = static_cast<Face_id>(1 + random.below(4)); f < all; ++f) {
+    judge::Wrong_point& point = grade.wrong_points.emplace_back();
+    point.at = {Rational(static_cast<long>(f)), 0, 1};
+    point.on = {Rational(static_cast<long>(f)), 0, 0};
+    point.face = f;
+    point.inside = random.chance(1, 2);
+    if (random.chance(1, 2))
+      point.winding = point.inside ? -static_cast<int>(random.below(3)) : 1 + static_cast<int>(random.below(3));
+    (point.is_held() ? grade.wrong_visible : grade.wrong_hidden).push_back(f);
+  }
+  grade.judged = grade.wrong_points.size() + random.below(9);
+  const Contract contract = any_contract(random);
+  const Explanation why = judge::explain({}, query, {}, grade, contract);
+  require(why.refutation && why.refutation->face < grade.wrong_points.size(), "a wrong point is told");
+  const judge::Wrong_point& told = grade.wrong_points[why.refutation->face];
+  if (contract != Contract::exact) {
+    const auto is_worse = [&](const judge::Wrong_point& p) {
+      return p.is_held() == (contract == Contract::aggressive);
+    };
+    require(is_worse(told) || std::none_of(grade.wrong_points.begin(), grade.wrong_points.end(), is_worse),
+            "a point that the contract forbids comes first");
+  }
+  const std::string& words = why.refutation->words;
+  require(names(words, told.inside ? " is inside the result" : " is outside the result"),
+          "a point is where it is told to be");
+  require(names(words, "has a face through it") == !told.winding, "a point on a face of the answer is told to be");
+  if (told.winding)
+    require(words.ends_with("winds round it " + std::to_string(*told.winding) + " times"), "a winding number is told");
 }
 
 }  // namespace fuzz::judged_laws

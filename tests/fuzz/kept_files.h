@@ -239,6 +239,12 @@ class File_walk {
             "files: what is begun stands beside all that was there");
     require(path.parent_path() == folder_ && target.starts_with(own.substr(0, own.rfind(".partial"))),
             "files: what is begun is named after what it becomes");
+    std::string expected;
+    for (int number = 0; expected.empty() || model_.entries.count(expected) > 0; ++number) {
+      const std::string ending = number == 0 ? ".partial" : ".partial" + std::to_string(number);
+      expected = target.substr(0, 255 - ending.size()) + ending;
+    }
+    require(own == expected, "files: what is begun is .partial, or .partial1 and so on where that is taken");
   }
 
   struct Given_up {};

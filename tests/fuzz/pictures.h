@@ -6,10 +6,13 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/io/plot.h>
 #include <sightline/io/svg.h>
+#include <sightline/kernel/scene/pixel_view.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <map>
@@ -362,12 +365,41 @@ inline void points_in_a_plot(Random& random) {
 }
 
 /// The first bytes are a seed.
+/// Twelve series have colours of their own; more than that have some colour each.
+inline void many_series_in_a_plot(Random& random) {
+  Log_plot plot("title", "across", "upwards");
+  const std::size_t count = 1 + random.below(30);
+  for (std::size_t k = 0; k < count; ++k) plot.add("series " + std::to_string(100 + k), 1, static_cast<double>(k + 1));
+  std::vector<std::string> colours;
+  for (const Drawn& drawn : elements_of(plot.text()))
+    if (drawn.name == "line" && drawn.number("stroke-width") == 4) colours.push_back(drawn.attributes.at("stroke"));
+  const std::set<std::string> apart(colours.begin(), colours.end());
+  require(colours.size() == count, "each series has its colour");
+  require(apart.size() == std::min<std::size_t>(count, 12), "as many colours are used as there are");
+}
+
+/// Doubles have places in images whose directions are neither tiny nor huge, of whatever length else.
+inline void places_in_images(Random& random) {
+  static constexpr std::array powers{0, 1, -1, 40, -40, 95, -95, 105, -105, 120, -120, 150, -150};
+  const int power = powers[random.below(powers.size())];
+  Pixel_view view;
+  view.width = view.height = 1 + static_cast<std::uint32_t>(random.below(9));
+  const std::size_t axis = random.below(3);
+  view.look[axis] = std::ldexp(random.chance(1, 2) ? 1.0 : -1.0, power);
+  view.right[(axis + 1) % 3] = std::ldexp(static_cast<double>(random.between(1, 3)), power);
+  view.up[(axis + 2) % 3] = std::ldexp(static_cast<double>(random.between(1, 3)), power);
+  require(view.has_places_in_doubles() == (std::abs(power) < 100),
+          "doubles have places in an image iff its directions are neither tiny nor huge");
+}
+
 inline void pictures(std::string_view bytes) {
   std::uint64_t seed = bytes.size();
   for (const char c : bytes.substr(0, 16)) seed = 31 * seed + static_cast<unsigned char>(c);
   Random random(seed);
   shapes_in_a_picture(random);
   points_in_a_plot(random);
+  many_series_in_a_plot(random);
+  places_in_images(random);
 }
 
 }  // namespace fuzz

@@ -751,6 +751,50 @@ inline void try_decimal_sizes(generate::Random& random) {
     require(!std::signbit(std::get<double>(*rounded)), "what is rounded to 0 has no sign");
 }
 
+/// Entities without brushes stand where their last origin says; an origin that is not three decimals is refused.
+inline void try_map_places(generate::Random& random) {
+  std::string text;
+  std::vector<std::pair<std::string, Exact_point>> expected;
+  bool is_wrong = false;
+  for (std::size_t entities = 1 + random.below(4); entities > 0; --entities) {
+    text += "{\n";
+    std::string name;
+    std::optional<Exact_point> origin;
+    bool has_brush = false;
+    for (std::size_t keys = random.below(5); keys > 0; --keys) switch (random.below(4)) {
+        case 0:
+          name = random.chance(1, 2) ? "light" : "info_player_start";
+          text += "\"classname\" \"" + name + "\"\n";
+          break;
+        case 1:
+          text += "{\n( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) stone 0 0 0 1 1\n}\n";
+          has_brush = true;
+          break;
+        default: {
+          const std::size_t numbers = random.chance(1, 12) ? 2 + 2 * random.below(2) : 3;
+          is_wrong = is_wrong || numbers != 3;
+          text += "\"origin\" \"";
+          origin.emplace();
+          for (std::size_t k = 0; k < numbers; ++k) {
+            const Rational x = generate::ratio(random.between(-99, 99), 4);
+            if (k < 3) (*origin)[k] = x;
+            text += (k == 0 ? "" : " ") + decimal_of(x);
+          }
+          text += "\"\n";
+        }
+      }
+    text += "}\n";
+    if (origin && !has_brush) expected.emplace_back(name, *origin);
+  }
+  std::vector<Map_place> places;
+  const bool refused = is_refused<Input_error>([&] { places = read_map_places({"places", text}); });
+  require(refused == is_wrong, "an origin is three decimals");
+  if (refused) return;
+  require(std::equal(places.begin(), places.end(), expected.begin(), expected.end(),
+                     [](const Map_place& p, const auto& e) { return p.name == e.first && p.origin == e.second; }),
+          "what has an origin and no brushes stands there");
+}
+
 inline void rare_files(std::string_view bytes) {
   Bytes from(bytes);
   const std::size_t kind = from.below(256);
@@ -764,7 +808,7 @@ inline void rare_files(std::string_view bytes) {
     case 3: return try_many_nodes(random, false);
     case 4: return try_far_brush(random);
     case 5: return try_ply_forms(random, false);
-    case 6: return try_repeated_materials(random);
+    case 6: return random.chance(1, 2) ? try_map_places(random) : try_repeated_materials(random);
     default: return try_decimal_sizes(random);
   }
 }

@@ -43,6 +43,7 @@
 #include "side.h"
 #include "single_parts.h"
 #include "small_promises.h"
+#include "small_solids.h"
 #include "subject_laws.h"
 #include "sure_doubles.h"
 #include "text_numbers.h"
@@ -108,6 +109,7 @@ inline const std::vector<Target>& targets() {
                                        {"eye_numbers", eye_numbers, {}},
                                        {"ray_numbers", ray_numbers, {}},
                                        {"small_promises", small_promises, {}},
+                                       {"small_solids", small_solids, {}},
                                        {"rare_files", rare_files, {}},
                                        {"kept_files", kept_files, {}},
                                        {"one_edge", one_edge, {}},

@@ -159,6 +159,8 @@ inline void try_joined_lines(generate::Random& random) {
   } catch (const Not_representable&) {  // of triangles alone
     return;
   }
+  if (format != Format::qoff)  // which has no word of its own
+    require(format_of_content({"written", out.str()}) == format, "what is written is known by its content");
   join_lines(read_scene(out.str(), format, "written"), out.str(), format, random);
 }
 
@@ -201,6 +203,7 @@ inline void try_brushes(generate::Random& random) {
     text += "}\n";
   }
   const Polygon_soup soup = sightline::read_map({"written", text});
+  require(format_of_content({"written", text}) == Format::map, "a level is known by its content");
   require(soup.face_count() == expected.size(), "a level has a face for each side of a brush");
   join_lines(soup, text, Format::map, random);
   for (Face_id f = 0; f < soup.face_count(); ++f) {
@@ -311,6 +314,7 @@ inline void written(std::string_view bytes) {
   if (kind > 19) try_joined_lines(random);
   else if (kind > 15) try_forms(random);
   else if (kind < 5) try_gltf(random);
+  else if (kind == 5) try_place_of_nonsense(random);
   else if (kind < 9) try_level(random);
   else if (kind < 13) try_brushes(random);
   else if (kind == 13) try_numbers(random);

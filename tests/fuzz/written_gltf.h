@@ -20,6 +20,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -249,6 +250,28 @@ inline std::vector<std::array<Exact_point, 3>> any_primitive(generate::Random& r
     else add(k + 1, k, k + 2);
   }
   return triangles;
+}
+
+/// Of a coordinate that is no number the byte is told at which it is in the file.
+inline void try_place_of_nonsense(generate::Random& random) {
+  Written_gltf file;
+  for (std::uint64_t k = random.below(4); k > 0; --k) file.put(2.0f);
+  const std::size_t begin = file.bytes.size(), bad = random.below(9);
+  for (std::size_t k = 0; k < 9; ++k)
+    file.put(k == bad ? std::numeric_limits<float>::infinity() : static_cast<float>(random.between(-3, 3)));
+  const std::size_t points = file.accessor(begin, 5126, 3, "VEC3", 0, 0);
+  file.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", points}}}}}}}};
+  file.json["nodes"] = {{{"mesh", 0}}};
+  const std::string bytes = file.as_binary();
+  // The one word of the file's data that is infinite, by its bits; the data are all that is behind the JSON.
+  const std::size_t at = bytes.size() - file.bytes.size() + begin + 4 * bad;
+  std::string said;
+  try {
+    sightline::read_glb(Input{"written", bytes});
+  } catch (const Input_error& error) {
+    said = error.what();
+  }
+  require(said.find("byte " + std::to_string(at) + ":") != std::string::npos, "an error tells the byte that it is at");
 }
 
 /// A file of few meshes below few nodes has the triangles that were written, in order; one matrix that is no map of
