@@ -14,7 +14,7 @@ bool Flat_piece::is_in_plane_of(const Flat_piece& other) const {
 }
 
 Exact_point between(const Exact_point& p, const Rational& t, const Exact_point& q) {
-  return {Rational(p[0] + t * (q[0] - p[0])), Rational(p[1] + t * (q[1] - p[1])), Rational(p[2] + t * (q[2] - p[2]))};
+  return generate::along(p, t, minus(q, p));
 }
 
 Flat_pieces flat_pieces(const Scene& scene) {
@@ -61,8 +61,9 @@ bool blocks(const Flat_piece& flat, const Exact_point& p, const Exact_point& q) 
   const Exact_point at = between(p, Rational(from / (from - to)), q);
   return is_within_walls(flat, at);
 }
-bool is_sightline(const Flat_pieces& flats, const Exact_point& eye, const Exact_point& q) {
-  return std::none_of(flats.begin(), flats.end(), [&](const Flat_piece& flat) { return blocks(flat, eye, q); });
+
+bool is_sightline(const Flat_pieces& flats, const Exact_point& p, const Exact_point& q) {
+  return std::none_of(flats.begin(), flats.end(), [&](const Flat_piece& flat) { return blocks(flat, p, q); });
 }
 
 std::set<Face_id> crossing_at(const Flat_pieces& flats, const Exact_point& x, const Exact_point& direction) {

@@ -185,14 +185,12 @@ std::string flaw_of_selves(const Rounded_surface& near) {
   for (const auto& [a, b] : near.crossing) {
     if (a != b) continue;
     const auto loop = near.soup.loop(a);
-    bool is_on_a_line = true;
-    for (const Point_id p : loop)
-      for (const Point_id q : loop) {
-        const Exact_point origin = near.soup.point(loop[0]);
-        is_on_a_line =
-            is_on_a_line && is_zero(cross(minus(near.soup.point(p), origin), minus(near.soup.point(q), origin)));
-      }
-    if (is_on_a_line) return "face " + std::to_string(a) + " is a line, and said to cross itself";
+    const auto way = [&](Point_id p) { return minus(near.soup.point(p), near.soup.point(loop[0])); };
+    const auto is_along_all = [&](Point_id p) {
+      return std::all_of(loop.begin(), loop.end(), [&](Point_id q) { return is_zero(cross(way(p), way(q))); });
+    };
+    if (std::all_of(loop.begin(), loop.end(), is_along_all))
+      return "face " + std::to_string(a) + " is a line, and said to cross itself";
   }
   return {};
 }

@@ -415,8 +415,8 @@ inline void try_why_not_the_solid(Random& random) {
   const Explanation why = judge::explain(soup, query, answer, grade, any_contract(random));
   require(why.refutation.has_value(), "a point tells why a solid is wrong");
   const Exact_point& at = why.refutation->from;
-  const bool in_first = at[0] > 0 && at[0]<4, in_second = at[0]> 4 - overlap && at[0] < 8 - overlap;
-  require(in_first != in_second, "it is in one of both");
+  const auto is_within = [&](const Rational& low) { return low < at[0] && at[0] < low + 4; };
+  require(is_within(0) != is_within(4 - overlap), "it is in one of both");
   require(names(why.refutation->words, told_point(at)) && names(why.refutation->words, told_point(why.refutation->to)),
           "words tell where it is");
   require_told(why);

@@ -133,23 +133,36 @@ inline std::string own_file(const std::string& include) {
   return include.find('/', 10) == std::string::npos ? include : include.substr(10);
 }
 
-/// The headers of the standard library that lines of a file include, and our own that these include, directly or not.
-inline std::set<std::string, std::less<>> standard_headers(const std::filesystem::path& root,
-                                                           const std::vector<Include>& first) {
-  std::set<std::string, std::less<>> found;
-  std::vector<Include> left = first;
-  while (!left.empty()) {
-    const Include include = left.back();
-    left.pop_back();
-    if (!found.insert(include.name).second || !include.name.starts_with("sightline/")) continue;
-    const std::vector<Include> more = includes_of(root / own_file(include.name));
-    left.insert(left.end(), more.begin(), more.end());
+/// The headers that files include, directly or by our own, of which each is read once.
+class Reached_headers {
+ public:
+  explicit Reached_headers(std::filesystem::path root) : root_(std::move(root)) {}
+
+  std::set<std::string, std::less<>> of(const std::vector<Include>& first) {
+    std::set<std::string, std::less<>> found;
+    std::vector<Include> left = first;
+    while (!left.empty()) {
+      const std::string name = left.back().name;
+      left.pop_back();
+      if (!found.insert(name).second || !name.starts_with("sightline/")) continue;
+      const std::vector<Include>& more = included_by(own_file(name));
+      left.insert(left.end(), more.begin(), more.end());
+    }
+    for (const char* const derived : {"fstream", "iostream", "istream", "ostream", "sstream"})
+      if (found.contains(derived)) found.insert("ios");
+    return found;
   }
-  for (const char* const stream :
-       {"fstream", "iostream", "istream", "ostream", "sstream"})  // which are derived from it
-    if (found.contains(stream)) found.insert("ios");
-  return found;
-}
+
+ private:
+  const std::vector<Include>& included_by(const std::string& file) {
+    const auto [place, is_new] = read_.try_emplace(file);
+    if (is_new) place->second = includes_of(root_ / file);
+    return place->second;
+  }
+
+  std::filesystem::path root_;
+  std::map<std::string, std::vector<Include>> read_;
+};
 
 /// What lines use of the standard library without its header, as "line: what is wrong"; each name once.
 inline std::vector<std::pair<std::size_t, std::string>> missing_headers(
@@ -173,11 +186,13 @@ inline constexpr std::array<const char*, 5> library_layers{"kernel", "algorithms
 /// Every breach of the rules, as "file:line: what is wrong"; sorted by file. Empty: all is well.
 inline std::vector<std::string> breaches(const Rules& rules) {
   std::vector<std::string> found;
+  Reached_headers reached(rules.root);
   for (const std::string layer :
        {"algorithms", "apps", "bench", "harness", "io", "kernel", "python", "sightline", "tests"}) {
     const bool library = std::find(library_layers.begin(), library_layers.end(), layer) != library_layers.end();
     for (const std::string& file : sources_in(rules.root, layer)) {
       const std::filesystem::path path = rules.root / file;
+      const std::vector<Include> includes = includes_of(path);
       const Room& room =
           *std::find_if(rooms().begin(), rooms().end(), [&](const Room& r) { return file.starts_with(r.folder); });
       const auto report = [&](std::size_t line, const std::string& what) {
@@ -192,7 +207,6 @@ inline std::vector<std::string> breaches(const Rules& rules) {
         std::getline(in, first);
         if (first != "#pragma once") report(1, "does not begin with #pragma once");
       } else if (library) {
-        const std::vector<Include> includes = includes_of(path);
         const std::string stem = file.substr(0, file.size() - 4);
         const std::string own = (layer == "sightline" ? stem : "sightline/" + stem) + ".h";
         const bool has_own = std::filesystem::exists(rules.root / (stem + ".h"));
@@ -203,11 +217,10 @@ inline std::vector<std::string> breaches(const Rules& rules) {
 
       if (library) {
         std::ifstream in(path);
-        for (const auto& [line, what] : missing_headers(in, standard_headers(rules.root, includes_of(path))))
-          report(line, what);
+        for (const auto& [line, what] : missing_headers(in, reached.of(includes))) report(line, what);
       }
 
-      for (const auto& [line, open, name] : includes_of(path)) {
+      for (const auto& [line, open, name] : includes) {
         // Quotes are for a neighbour that is no part of the library.
         if (open == '"') {
           if (library) report(line, "own includes are spelled <sightline/...>: \"" + name + '"');
@@ -217,8 +230,7 @@ inline std::vector<std::string> breaches(const Rules& rules) {
         }
         // Our own headers: the direction, and that they are there.
         if (name.starts_with("sightline/")) {
-          std::string own = name.substr(name.find('/') + 1);
-          if (own.find('/') == std::string::npos) own = name;  // the front door
+          const std::string own = own_file(name);
           if (!lets_in(room, own))
             report(line,
                    std::string(room.folder.substr(0, room.folder.size() - 1)) + " must not include <" + name + '>');
