@@ -5,12 +5,12 @@
 #include "support/page.h"
 
 #include <sightline/algorithms/levels/cells.h>
-#include <sightline/io/file.h>
-#include <sightline/io/quake_map.h>
+#include <sightline/io/input.h>
 
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
 
 namespace sightline::app {
 
@@ -30,7 +30,7 @@ struct Seal {
   bool is_entity;  ///< of the file, not of the command line: it may stand in something solid
 };
 
-/// The points of --seal; for "entities" those of the .map.
+/// The points of --seal; for "entities" those of the level.
 std::vector<Seal> seals_of(const Cells_arguments& arguments) {
   std::vector<Seal> seals;
   for (const std::string& text : arguments.seals) {
@@ -38,11 +38,9 @@ std::vector<Seal> seals_of(const Cells_arguments& arguments) {
       seals.push_back({text, parse_point(text, "--seal"), false});
       continue;
     }
-    const std::string& file = arguments.common.scene;
-    if (format_of_ending(file) != Format::map)
-      throw Usage_error("--seal entities: SCENE is no .map; give a point X,Y,Z");
-    const std::string bytes = read_bytes(file);
-    for (Map_place& place : read_map_places({file, bytes}))
+    std::optional<std::vector<Map_place>> places = places_of(arguments.common);
+    if (!places) throw Usage_error("--seal entities: SCENE is no .map or .bsp; give a point X,Y,Z");
+    for (Map_place& place : *places)
       seals.push_back({place.name + " at " + Page::text(place.origin), std::move(place.origin), true});
   }
   return seals;
@@ -171,6 +169,18 @@ Grouped_polygons drawing_of(const Level_cells& level, const Division& division,
   return polygons;
 }
 
+/// A way out, by points of its first cells.
+std::string words_of(const Level_cells& level, const std::vector<Cell_id>& way) {
+  if (way.empty()) return "no way out";
+  if (way[0] == no_cell) return "outside of everything";
+  if (way.size() == 1) return "a leak: the cell there has no end";
+  constexpr std::size_t most = 6;
+  std::string words = fmt::format("a leak through {} cells, by ", way.size());
+  for (std::size_t i = 1; i < std::min(way.size(), most); ++i)
+    words += fmt::format("{}({})", i == 1 ? "" : ", ", Page::text(level.inside(way[i])));
+  return words + (way.size() > most ? " and so on; --json - lists all" : "");
+}
+
 Exit run(const Cells_arguments& arguments) {
   const Common& common = arguments.common;
   const Polygon_soup soup = common.read();
@@ -187,19 +197,15 @@ Exit run(const Cells_arguments& arguments) {
   const double seconds = watch.seconds();
   const Scene& scene = level.scene();
   const Cell_counters& c = level.counters();
-  if (!arguments.out.empty()) write_file(arguments.out, cells_text(level, soup, division, regions));
-
-  if (!arguments.mesh.empty()) write_drawings("", arguments.mesh, drawing_of(level, division, regions));
-
   Json leaks = Json::array();
-  std::vector<Seal> seals;
+  std::vector<Seal> seals;  // but for entities in what is solid
   std::vector<std::vector<Cell_id>> ways;
   for (const Seal& seal : given) {
     const Exact_point& p = seal.point;
     const Cell_id cell = level.at(p);
     if (cell != no_cell && level.cells()[cell].is_solid) {
       if (seal.is_entity) continue;
-      throw Usage_error("--seal: the point is in a solid cell; give one of a room");
+      throw Usage_error("--seal " + seal.text + ": the point is in a solid cell; give one of a room");
     }
     seals.push_back(seal);
     ways.push_back(cell == no_cell ? std::vector<Cell_id>{no_cell} : level.way_out(p));
@@ -209,6 +215,12 @@ Exit run(const Cells_arguments& arguments) {
       if (on_way != no_cell) way.push_back({{"cell", on_way}, {"point", point_json(level.inside(on_way))}});
     leaks.push_back({{"from", point_json(p)}, {"way", std::move(way)}});
   }
+  if (!given.empty() && seals.empty())
+    throw Input_error::of_file(common.scene,
+                               "none of its entities stands in a room, so that nothing is known of leaks; give a "
+                               "point of one, --seal X,Y,Z");
+  if (!arguments.out.empty()) write_file(arguments.out, cells_text(level, soup, division, regions));
+  if (!arguments.mesh.empty()) write_drawings("", arguments.mesh, drawing_of(level, division, regions));
   if (!arguments.html.empty()) write_page(arguments.html, level, seals, ways);
   const Exit exit = leaks.empty() ? Exit::done : Exit::disagreement;
   Json result{{"cells", c.cells},
@@ -231,12 +243,7 @@ Exit run(const Cells_arguments& arguments) {
   row("tree", fmt::format("{} nodes, {} splits; {} corners of walls in planes that divide them", c.nodes, c.splits,
                           c.contacts));
   for (std::size_t i = 0; i < ways.size(); ++i)
-    if (!seals[i].is_entity || !ways[i].empty())
-      row("seal",
-          seals[i].text + (ways[i].empty() ? ": no way out"
-                           : ways[i][0] == no_cell
-                               ? ": outside of everything"
-                               : fmt::format(": a leak through {} cells; --json - lists them", ways[i].size())));
+    if (!seals[i].is_entity || !ways[i].empty()) row("seal", seals[i].text + ": " + words_of(level, ways[i]));
   if (std::any_of(given.begin(), given.end(), [](const Seal& seal) { return seal.is_entity; })) {
     std::size_t sealed = 0;
     for (std::size_t i = 0; i < ways.size(); ++i) sealed += seals[i].is_entity && ways[i].empty() ? 1 : 0;
@@ -254,11 +261,12 @@ void add_cells(Command program) {
       program.add_command("cells", "The convex cells of a level, solid and empty, the portals between them, and leaks");
   auto a = std::make_shared<Cells_arguments>();
   a->common.add_to(command);
-  command.add_option(
-      "--seal", a->seals,
-      "a point X,Y,Z of a room from which there should be no way out, or `entities`: all places of a .map where "
-      "something "
-      "stands (players, lamps; not those in solid cells). May be repeated. Exit code 1 where there is a way out");
+  command.add_option("--seal", a->seals,
+                     "a point X,Y,Z of a room from which there should be no way out, or `entities`: all places of a "
+                     ".map or .bsp where "
+                     "something stands (players, lamps; not those in solid cells). What is on a wall is in each cell "
+                     "beside it. May be "
+                     "repeated. Exit code 1 where there is a way out");
   a->division.add_to(command);
   command.add_option("--out", a->out, "write points, cells and walls as JSON, which `pvs --cells` reads")
       .writes_file(".json");

@@ -1,16 +1,17 @@
 // sightline verify: checks a certificate against a scene.
 
+#include "pvs/cell_index.h"
 #include "support/common.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/verify/level_cell.h>
 #include <sightline/algorithms/verify/level_fill.h>
 #include <sightline/algorithms/verify/solids_json.h>
-#include <sightline/algorithms/verify/written_out.h>
 #include <sightline/io/file.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
 #include <sightline/io/read.h>
+#include <sightline/io/visibility_table.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -55,109 +56,6 @@ static Certificate certificate_of(std::istream& in, const std::string& file) {
   }
 }
 
-/// A cell of a folder: what its index says of it, and its certificate, if it has one.
-struct Cell_entry {
-  std::uint64_t cell = 0;
-  std::string file;
-  Cell_statement statement;
-};
-
-static std::uint64_t whole_number_in(const nlohmann::json& value, std::uint64_t most, const char* what) {
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most)
-    throw std::invalid_argument(fmt::format("{} is no whole number up to {}", what, most));
-  return value.get<std::uint64_t>();
-}
-
-static const nlohmann::json& list_in(const nlohmann::json& json, const char* key) {
-  const nlohmann::json& list = json.at(key);
-  if (!list.is_array()) throw std::invalid_argument(fmt::format("\"{}\" is no list", key));
-  return list;
-}
-
-/// Of an index of so many bytes, in which so much is written out.
-static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::path& folder, bool has_certificate,
-                             std::size_t bytes, Written_out& written_out) {
-  Cell_entry entry;
-  entry.cell = whole_number_in(json.at("cell"), std::numeric_limits<std::uint64_t>::max(), "\"cell\"");
-  if (has_certificate) {
-    const std::filesystem::path name = json.at("certificate").get<std::string>();
-    if (name.empty() || name != name.filename() || name == "." || name == "..")
-      throw std::invalid_argument("its certificate is no file of this folder");
-    entry.file = (folder / name).string();
-    for (const nlohmann::json& face : list_in(json, "within"))
-      entry.statement.within.push_back(
-          static_cast<Face_id>(whole_number_in(face, std::numeric_limits<Face_id>::max(), "a face of \"within\"")));
-  }
-  std::vector<Exact_point> corners;
-  for (const nlohmann::json& corner : list_in(json, "corners")) {
-    if (!corner.is_array() || corner.size() != 3) throw std::invalid_argument("a corner has not three coordinates");
-    Exact_point& p = corners.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) p[k] = rational_from_string(corner[k].get<std::string>());
-  }
-  for (const nlohmann::json& wall : list_in(json, "walls")) {
-    if (!wall.is_array()) throw std::invalid_argument("a wall is no list of corners");
-    std::vector<Exact_point>& polygon = entry.statement.walls.emplace_back();
-    for (const nlohmann::json& place : wall) {
-      if (!place.is_number_unsigned() || place.get<std::uint64_t>() >= corners.size())
-        throw std::invalid_argument("a wall names a corner that there is not");
-      if (!written_out.add(corners[place.get<std::size_t>()], bytes))
-        throw std::invalid_argument(std::string("corners are ") + Written_out::what_is_too_much);
-      polygon.push_back(corners[place.get<std::size_t>()]);
-    }
-  }
-  return entry;
-}
-
-/// The cells that the index of a folder states, in its order.
-struct Cell_index {
-  std::vector<Cell_entry> cells, rest;  ///< with certificates, and without
-};
-
-static Cell_index cells_in(const std::filesystem::path& folder) {
-  constexpr const char* format = "sightline pvs certificates 3";
-  const std::string file = (folder / "index.json").string();
-  if (!std::filesystem::exists(file)) {
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.path().filename().string().starts_with("index-"))
-        throw Input_error::of_file(folder.string(),
-                                   "has its index in parts, as shards write it; `sightline merge PARTS --out FILE "
-                                   "--certificates FOLDER` makes one of them");
-    throw Input_error::of_file(
-        folder.string(), "is a directory; name a file in it, or a folder that `sightline pvs --certificates` wrote");
-  }
-  const std::string bytes = read_bytes(file);
-  const nlohmann::json json = parse_json(bytes, file);
-  Written_out written_out;
-  const auto refuse = [&](const std::string& what) {
-    throw Input_error::of_file(file, what + "; write the folder again with `sightline pvs --certificates FOLDER`");
-  };
-  if (!json.is_object() || !json.contains("format") || json["format"] != format)
-    refuse(fmt::format("its \"format\" is not \"{}\"", format));
-  Cell_index index;
-  const auto read = [&](const char* key, std::vector<Cell_entry>& cells) {
-    if (!json.contains(key) || !json[key].is_array()) refuse(fmt::format("has no list \"{}\"", key));
-    for (std::size_t i = 0; i < json[key].size(); ++i) try {
-        cells.push_back(cell_entry(json[key][i], folder, &cells == &index.cells, bytes.size(), written_out));
-      } catch (const nlohmann::json::exception&) {
-        refuse(fmt::format("entry {} of \"{}\" has not the parts of a cell", i, key));
-      } catch (const std::invalid_argument& error) {
-        refuse(fmt::format("entry {} of \"{}\": {}", i, key, error.what()));
-      }
-  };
-  read("cells", index.cells);
-  read("rest", index.rest);
-  std::set<std::uint64_t> numbers;
-  std::set<std::string> files;
-  for (const std::vector<Cell_entry>* cells : {&index.cells, &index.rest})
-    for (const Cell_entry& entry : *cells) {
-      if (!numbers.insert(entry.cell).second) refuse(fmt::format("has cell {} twice", entry.cell));
-      if (!entry.file.empty() && !files.insert(entry.file).second)
-        refuse(fmt::format("names the certificate of cell {} twice", entry.cell));
-    }
-  if (index.cells.empty()) refuse("names no cells");
-  return index;
-}
-
 /// How many faces a cell's certificate and its statement show to be visible from it.
 static std::size_t faces_shown_by(const Weak_certificate& claim, const Cell_statement& statement) {
   std::set<Face_id> shown(statement.within.begin(), statement.within.end());
@@ -165,18 +63,47 @@ static std::size_t faces_shown_by(const Weak_certificate& claim, const Cell_stat
   return shown.size();
 }
 
-/// All cells of a folder with their certificates, or so many of them, drawn at random; and that its cells fill a level.
-static Exit run_folder(const Common& common, const std::string& folder, std::size_t sample) {
-  const Polygon_soup soup = common.read();
-  Cell_index index = cells_in(folder);
-  std::vector<Cell_entry>& cells = index.cells;
-  std::vector<std::size_t> chosen(cells.size());
+/// Which cells of a folder are checked: all, or so many, drawn at random, or those that are named.
+struct Choice {
+  std::size_t sample = 0;  // 0: all
+  std::vector<std::uint64_t> cells;
+};
+
+static std::vector<std::size_t> chosen_of(const std::vector<Cell_entry>& cells, const Choice& choice,
+                                          const Common& common) {
+  std::vector<std::size_t> chosen;
+  for (const std::uint64_t cell : choice.cells) {
+    const auto at = std::find_if(cells.begin(), cells.end(), [&](const Cell_entry& e) { return e.cell == cell; });
+    if (at == cells.end()) throw Usage_error(fmt::format("--cell {}: the folder has no certificate of it", cell));
+    chosen.push_back(static_cast<std::size_t>(at - cells.begin()));
+  }
+  if (!chosen.empty()) return chosen;
+  chosen.resize(cells.size());
   std::iota(chosen.begin(), chosen.end(), 0);
-  if (sample > 0 && sample < cells.size()) {
+  if (choice.sample > 0 && choice.sample < cells.size()) {
     std::mt19937_64 random(common.seed);
     std::shuffle(chosen.begin(), chosen.end(), random);
-    chosen.resize(sample);
+    chosen.resize(choice.sample);
   }
+  return chosen;
+}
+
+/// Cells of a folder with their certificates; and that its cells fill a level.
+static Exit run_folder(const Common& common, const std::string& folder, const Choice& choice) {
+  const Polygon_soup soup = common.read();
+  Cell_index index = read_index(folder);
+  if (const std::string scene = fmt::format("scene {:016x},", fingerprint(soup));
+      index.question.find("scene ") != std::string::npos && index.question.find(scene) == std::string::npos) {
+    const std::string why = "the index is of another scene, as it says, or SCENE was read with other options";
+    const Json result{{"accepted", false},
+                      {"why", why},
+                      {"rejected", Json::array({Json{{"file", folder + "/index.json"}, {"why", why}}})}};
+    if (!write_json(common, "verify", Scene(soup), result, {{"certificates", 0}}, {{"verify", 0.0}}))
+      row("REJECTED", why);
+    return Exit::disagreement;
+  }
+  std::vector<Cell_entry>& cells = index.cells;
+  const std::vector<std::size_t> chosen = chosen_of(cells, choice, common);
   const Stopwatch watch;
   const Time_limit limit(common.budget);
   Progress progress("verifying");
@@ -322,9 +249,10 @@ static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common,
   return verify_solids(solids, certificate, result ? &*result : nullptr, options);
 }
 
-static Exit run(const Common& common, const std::string& file, const Solid_files& files, std::size_t sample) {
-  if (std::filesystem::is_directory(file)) return run_folder(common, file, sample);
-  if (sample > 0) throw Usage_error("--sample is for a folder of certificates; this is a file");
+static Exit run(const Common& common, const std::string& file, const Solid_files& files, const Choice& choice) {
+  if (std::filesystem::is_directory(file)) return run_folder(common, file, choice);
+  if (choice.sample > 0 || !choice.cells.empty())
+    throw Usage_error("--sample and --cell are for a folder of certificates; this is a file");
   const Polygon_soup soup = common.read();
   Certificate certificate;
   Solid_certificate solids;
@@ -362,13 +290,15 @@ void add_verify(Command program) {
   auto common = std::make_shared<Common>();
   auto certificate = std::make_shared<std::string>();
   common->add_to(command);
-  auto sample = std::make_shared<std::uint64_t>(0);
+  auto choice = std::make_shared<Choice>();
   command
       .add_option("CERTIFICATE", *certificate,
                   "a file that --certificate wrote, or a folder that `pvs --certificates` wrote")
       .required()
       .reads_file();
-  command.add_option("--sample", *sample, "of a folder, so many cells, drawn by --seed").check(whole_number());
+  const Option sample = command.add_option("--sample", choice->sample, "of a folder, so many cells, drawn by --seed")
+                            .check(range(1, std::numeric_limits<int>::max()));
+  command.add_option("--cell", choice->cells, "of a folder, this cell alone; may be repeated").excludes(sample);
   auto solids = std::make_shared<Solid_files>();
   command
       .add_option(
@@ -381,7 +311,7 @@ void add_verify(Command program) {
                   "of a certificate of `boolean`: the result that it wrote; it must be what the certificate keeps")
       .reads_file();
   command.footer("Exit code 0: accepted; 1: rejected; 3: scene or certificate cannot be read.");
-  command.set_action([common, certificate, solids, sample] { return run(*common, *certificate, *solids, *sample); });
+  command.set_action([common, certificate, solids, choice] { return run(*common, *certificate, *solids, *choice); });
 }
 
 }  // namespace sightline::app

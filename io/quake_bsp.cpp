@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::int32_t version = 29;
 enum Lump : std::size_t {
+  lump_entities = 0,
   lump_planes = 1,
   lump_vertices = 3,
   lump_visibility = 4,
@@ -58,6 +59,12 @@ class Level_reader {
     read_nodes();
     check_visibility();
     return std::move(level_);
+  }
+  std::vector<Map_place> read_places() const {
+    check_header();
+    const Quake_lump found = lump(lump_entities);
+    const std::string_view text = bytes_.substr(found.offset, found.size);
+    return read_map_places({input_.name + ", its entities", text.substr(0, text.find('\0'))});
   }
 
  private:
@@ -269,6 +276,8 @@ std::vector<std::size_t> Quake_level::seen_from(std::size_t leaf) const {
 }
 
 Quake_level read_quake_level(const Input& input) { return Level_reader(input).read(); }
+
+std::vector<Map_place> read_level_places(const Input& input) { return Level_reader(input).read_places(); }
 
 Polygon_soup read_quake_bsp(const Input& input) { return read_quake_level(input).soup; }
 

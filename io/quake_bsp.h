@@ -3,6 +3,7 @@
 
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
+#include <sightline/io/quake_map.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <array>
@@ -55,6 +56,10 @@ bool looks_like_quake_level(std::string_view bytes);
 /// Reads a level of version 29 (also those without textures and light). Errors: Input_error where it is of another
 /// version, cut off, or names what there is not. Cost: one pass. Exact: yes, the floats as they are.
 Quake_level read_quake_level(const Input& input);
+
+/// Where something stands in a level, as its entities say: those with an `origin` and no model of the file's, in its
+/// order. Errors: Input_error, as read_map_places; places are in the lump of entities.
+std::vector<Map_place> read_level_places(const Input& input);
 
 /// The faces of the world alone. A face's id is its place in the world's model, which is its place in the file. Faces
 /// of doors and the like are passed over.

@@ -155,6 +155,7 @@ class Map_reader {
     std::vector<Brush> brushes;
     std::string name;
     std::optional<Exact_point> origin;
+    bool has_model = false;  // of a compiled level, in the place of brushes
     for (;;) {
       const std::string_view word = next_word("} or a brush");
       if (word == "}") break;
@@ -165,6 +166,8 @@ class Map_reader {
           name = value;
         } else if (key == "origin" && are_places_wanted_) {
           origin = origin_of(value);
+        } else if (key == "model") {
+          has_model = value.starts_with('*');
         }
         finish_line();
       } else if (word == "{") {
@@ -173,7 +176,7 @@ class Map_reader {
         text_.fail(word, "unexpected " + quoted(word) + "; write \"KEY\" \"VALUE\", { or } here");
       }
     }
-    if (origin && brushes.empty()) places_.push_back({std::move(name), *std::move(origin)});
+    if (origin && brushes.empty() && !has_model) places_.push_back({std::move(name), *std::move(origin)});
     if (!is_world || are_places_wanted_) return;
     for (const Brush& brush : brushes) add_faces(brush);
   }

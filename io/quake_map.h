@@ -40,7 +40,8 @@ struct Map_place {
   Exact_point origin;
 };
 
-/// The entities of a .map that have an `origin` and no brushes, in the order of the file; of a key that comes twice the
+/// The entities of a .map that have an `origin` and no brushes, nor a `model` of a compiled level's in their place
+/// (`*1`), in the order of the file; of a key that comes twice the
 /// last value counts. Errors: Input_error, as `read_map`, and for an origin that is not three decimals. Exact: yes.
 std::vector<Map_place> read_map_places(const Input& input, const Read_options& options = {});
 

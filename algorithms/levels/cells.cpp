@@ -544,27 +544,51 @@ Exact_point Level_cells::inside(Cell_id cell) const {
   return sum;
 }
 
-Cell_id Level_cells::at(const Exact_point& point) const {
+std::vector<Cell_id> Level_cells::about(const Exact_point& point) const {
   Predicate_counts counts;
+  const Located_point place = space_->traits.eye(point);
   for (const std::array<Plane, 2>& axis : space_->box)
     for (const Plane plane : axis)
-      if (space_->traits.side(space_->traits.eye(point), plane, counts) == CGAL::NEGATIVE) return no_cell;
-  const Bsp_leaf leaf = find_leaf(space_->traits, space_->tree, point, counts);
-  if (leaf.node == Exact_tree::leaf) return 0;
-  return space_->leaves[static_cast<std::size_t>(leaf.node)][leaf.in_front ? 0 : 1];
+      if (space_->traits.side(place, plane, counts) == CGAL::NEGATIVE) return {};
+  if (space_->tree.nodes.empty()) return {0};
+  std::vector<Cell_id> cells;
+  std::vector<std::int32_t> stack{0};
+  while (!stack.empty()) {
+    const auto n = static_cast<std::size_t>(stack.back());
+    stack.pop_back();
+    const Exact_tree::Node& node = space_->tree.nodes[n];
+    const Sign side = space_->traits.side(place, node.plane, counts);
+    const auto go = [&](std::int32_t child, Cell_id leaf) {
+      if (child != Exact_tree::leaf) stack.push_back(child);
+      else if (leaf != no_cell) cells.push_back(leaf);
+    };
+    if (side != CGAL::NEGATIVE) go(node.front, space_->leaves[n][0]);
+    if (side != CGAL::POSITIVE) go(node.behind, space_->leaves[n][1]);
+  }
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+Cell_id Level_cells::at(const Exact_point& point) const {
+  const std::vector<Cell_id> cells = about(point);
+  if (cells.empty()) return no_cell;
+  const auto open = std::find_if(cells.begin(), cells.end(), [&](Cell_id cell) { return !cells_[cell].is_solid; });
+  return open == cells.end() ? cells[0] : *open;
 }
 
 std::vector<Cell_id> Level_cells::way_out(const Exact_point& point) const {
-  const Cell_id start = at(point);
-  if (start == no_cell || cells_[start].is_solid) return {};
   std::vector<Cell_id> from(cells_.size(), no_cell);
-  from[start] = start;
   std::queue<Cell_id> waiting;
-  for (waiting.push(start); !waiting.empty(); waiting.pop()) {
+  for (const Cell_id start : about(point)) {
+    if (cells_[start].is_solid) continue;
+    from[start] = start;
+    waiting.push(start);
+  }
+  for (; !waiting.empty(); waiting.pop()) {
     const Cell_id cell = waiting.front();
     if (cells_[cell].is_outside) {
       std::vector<Cell_id> way{cell};
-      while (way.back() != start) way.push_back(from[way.back()]);
+      while (way.back() != from[way.back()]) way.push_back(from[way.back()]);
       std::reverse(way.begin(), way.end());
       return way;
     }

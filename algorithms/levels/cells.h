@@ -97,10 +97,13 @@ class Level_cells {
   std::vector<Exact_point> polygon(const std::vector<std::uint32_t>& corners) const;
   /// A point of a cell's inside: the mean of its corners. Exact: yes.
   Exact_point inside(Cell_id cell) const;
-  /// The cell that a point is in; on a wall, that in front of it. Nothing beyond the box. Exact: yes.
+  /// The cells that a point is in or on the border of, ascending; none beyond the box. Exact: yes.
+  std::vector<Cell_id> about(const Exact_point& point) const;
+  /// The first of them that is not solid, or else the first. Nothing beyond the box. So what stands on a floor is in
+  /// the room, whichever way the tree's planes look.
   Cell_id at(const Exact_point& point) const;
-  /// Cells from that of a point to one that has no end, through open walls, as few as can be; empty where there is no
-  /// way, or the point is in a solid cell. Cost: O(walls)
+  /// Cells from one of those about a point that are not solid to one that has no end, through open walls, as few as can
+  /// be; empty where there is no way, or those about the point are solid. Cost: O(walls)
   std::vector<Cell_id> way_out(const Exact_point& point) const;
 
  private:

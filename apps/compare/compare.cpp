@@ -214,6 +214,12 @@ void add_compare(Command program) {
       .add_option("--html", a->html,
                   "write a page to look at: what each took and has wrong; of see and weak, in which faces")
       .writes_file(".html");
+  command
+      .add_option(
+          "--sightlines", a->sightlines,
+          "pvs: of each pair that a compiled level's own table hides wrongly write a certificate, which `verify` "
+          "accepts, to this folder")
+      .check(not_empty());
   a->tints.add_to(command);
   a->view.add_to(command, "of what is drawn for render by default 512x512; of the plot 860x560");
   command.footer(

@@ -25,6 +25,7 @@ struct Compare_arguments {
   std::vector<std::size_t> rays{100, 1000, 10000, 100000};
   Weak_task weak;
   std::string svg, html;
+  std::string sightlines;  ///< pvs: a folder
   View_arguments view;
   Tint_arguments tints;
   std::string ray_file;

@@ -202,7 +202,7 @@ std::vector<std::size_t> leaves_along(const Space_tree& tree, const Exact_point&
 }
 
 Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_level& file, const Space_tree& tree,
-                               const Level_cells& level, const Occluders& occluders) {
+                               const Level_cells& level, const Occluders& occluders, const Sightline_files* files) {
   const Common& common = arguments.common;
   Pvs_options options;
   options.threads = 1;  // processes are made after it
@@ -255,10 +255,13 @@ Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_l
       if (!exact[l][m] || table[l][m]) continue;
       if (faces.empty()) faces = harness::flat_faces_of(level.scene());
       std::optional<std::array<Exact_point, 2>> ends;
+      std::array<Cell_id, 2> cells{};
       for (const Cell_id from : question.cells[l + 1]) {
         for (const Cell_id to : question.cells[m + 1])
-          if (!ends && std::binary_search(pvs.visible[from].begin(), pvs.visible[from].end(), to))
+          if (!ends && std::binary_search(pvs.visible[from].begin(), pvs.visible[from].end(), to)) {
             ends = search.sightline(from, to);
+            cells = {from, to};
+          }
       }
       if (!ends) continue;
       const std::vector<std::size_t> through = leaves_along(tree, (*ends)[0], (*ends)[1]);
@@ -274,6 +277,9 @@ Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_l
                                      {"through", through},
                                      {"checked", checked}});
       if (!checked) compared.exit = Exit::disagreement;
+      if (files == nullptr || !checked) continue;
+      if (const std::optional<std::string> proof = files->write(cells, {l + 1, m + 1}, *ends))
+        compared.sightlines.back()["certificate"] = *proof;
     }
   return compared;
 }

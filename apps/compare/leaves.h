@@ -2,6 +2,7 @@
 // What the leaves of a compiled level see of each other: exactly, by the table that it came with, and by points.
 
 #include "compare.h"
+#include "sightline_files.h"
 
 #include <sightline/algorithms/levels/cells.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
@@ -23,9 +24,9 @@ struct Leaves_compared {
   double seconds = 0;
   Exit exit = Exit::done;
 };
-/// Pre: the level's cells are within the leaves of the file's tree.
+/// Pre: the level's cells are within the leaves of the file's tree. With `files` each sightline is one of these.
 Leaves_compared compare_leaves(const Compare_arguments& arguments, const Quake_level& file, const Space_tree& tree,
-                               const Level_cells& level, const Occluders& occluders);
+                               const Level_cells& level, const Occluders& occluders, const Sightline_files* files);
 
 /// The leaves whose insides a segment goes through, in order, by the file's own planes, exactly.
 std::vector<std::size_t> leaves_along(const Space_tree& tree, const Exact_point& from, const Exact_point& to);

@@ -159,23 +159,6 @@ Sets by_engine(const Cells_question& question, const Quake_level& file) {
   return sets;
 }
 
-/// How many of the pairs that the table hides an exact sightline shows, as far as time goes.
-std::size_t refutations(const Cells_question& question, const Quake_level& file, Cell_sights& sights,
-                        const Cell_sights::Is_over& is_over) {
-  std::size_t count = 0;
-  const Sets said = by_engine(question, file);
-  try {
-    for (const Cell_id c : question.cells) {
-      std::vector<Face_id> missing;
-      const std::vector<Face_id>& truth = question.exact.visible[c];
-      std::set_difference(truth.begin(), truth.end(), said[c].begin(), said[c].end(), std::back_inserter(missing));
-      if (!missing.empty()) count += sights.sightlines(c, missing, is_over).size();
-    }
-  } catch (const Out_of_budget&) {
-  }
-  return count;
-}
-
 // ---- Sizes
 
 /// A pair that a method hides, what shows that it is wrong, and what is seen of the face from there.
@@ -184,6 +167,38 @@ struct Sight {
   Cell_sightline line;
   Seen_face seen;
 };
+
+/// Of the pairs that the table hides those that an exact sightline shows, as far as time goes.
+std::vector<std::pair<Cell_id, Cell_sightline>> refutations(const Cells_question& question, const Quake_level& file,
+                                                            Cell_sights& sights, const Cell_sights::Is_over& is_over) {
+  std::vector<std::pair<Cell_id, Cell_sightline>> all;
+  const Sets said = by_engine(question, file);
+  try {
+    for (const Cell_id c : question.cells) {
+      std::vector<Face_id> missing;
+      const std::vector<Face_id>& truth = question.exact.visible[c];
+      std::set_difference(truth.begin(), truth.end(), said[c].begin(), said[c].end(), std::back_inserter(missing));
+      if (missing.empty()) continue;
+      for (Cell_sightline& line : sights.sightlines(c, missing, is_over)) all.emplace_back(c, std::move(line));
+    }
+  } catch (const Out_of_budget&) {
+  }
+  return all;
+}
+
+/// How large their faces look, of as many as there is time for.
+std::vector<Sight> measured(std::vector<std::pair<Cell_id, Cell_sightline>> lines, Cell_sights& sights,
+                            const Cell_sights::Is_over& is_over) {
+  std::vector<Sight> all;
+  try {
+    for (auto& [cell, line] : lines) {
+      Seen_face seen = sights.seen(line.from, line.face, is_over);
+      all.push_back({cell, std::move(line), std::move(seen)});
+    }
+  } catch (const Out_of_budget&) {
+  }
+  return all;
+}
 
 /// Of a sample of such pairs, as many as there is time for.
 std::vector<Sight> sights_of(const Json& sample, Cell_sights& sights, const Cell_sights::Is_over& is_over) {
@@ -226,14 +241,13 @@ std::string how_to_draw(const std::string& scene, const Sight& sight) {
 
 /// The largest first.
 Json sightlines_json(const Cells_question& question, const std::string& scene, const Space_tree& tree,
-                     std::vector<Sight> sights) {
-  constexpr std::size_t most = 20;
+                     std::vector<Sight> sights, const Sightline_files* files) {
   std::stable_sort(sights.begin(), sights.end(),
                    [](const Sight& a, const Sight& b) { return a.seen.pixels > b.seen.pixels; });
-  sights.resize(std::min(sights.size(), most));
   Json all = Json::array();
-  for (const Sight& sight : sights)
-    all.push_back({{"leaf", question.level.cells()[sight.cell].leaf},
+  for (const Sight& sight : sights) {
+    const std::uint32_t leaf = question.level.cells()[sight.cell].leaf;
+    all.push_back({{"leaf", leaf},
                    {"face", sight.line.face},
                    {"cell", sight.cell},
                    {"from", point_json(sight.line.from)},
@@ -241,6 +255,10 @@ Json sightlines_json(const Cells_question& question, const std::string& scene, c
                    {"through", leaves_along(tree, sight.line.from, sight.line.to)},
                    {"pixels", sight.seen.pixels},
                    {"draw", how_to_draw(scene, sight)}});
+    if (files == nullptr) continue;
+    const std::optional<std::string> file = files->write(sight.cell, leaf, sight.line);
+    if (file) all.back()["certificate"] = *file;
+  }
   return all;
 }
 
@@ -360,18 +378,24 @@ Exit compare_cells(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
   const Polygon_soup soup = common.read();
   const Level_trial trial(arguments, soup, true);
+  const Model model(soup);
+  std::optional<Sightline_files> files;
+  if (!arguments.sightlines.empty()) {
+    if (!trial.file) throw Usage_error("--sightlines are of a compiled level, .bsp, that has a table; SCENE has none");
+    files.emplace(arguments.sightlines, trial.level, model);
+  }
+  const Sightline_files* const to_files = files ? &*files : nullptr;
   const auto& [level, exact, question, file] = std::tie(trial.level, trial.exact, trial.question, trial.file);
 
   // 1. What methods say, each in a process of its own.
   Json rows = Json::array();
   Exit exit = ask(trial, common.budget, rows);
   std::optional<Leaves_compared> leaves;
-  if (file) leaves = compare_leaves(arguments, *file, trial.tree, level, trial.occluders);
+  if (file) leaves = compare_leaves(arguments, *file, trial.tree, level, trial.occluders, to_files);
   if (exit == Exit::done && leaves) exit = leaves->exit;
   if (exit == Exit::done && exact.counters.undecided + (leaves ? leaves->undecided : 0) > 0) exit = Exit::undecided;
 
   // 2. What shows that the table is wrong, and how large that looks which methods have wrong.
-  const Model model(soup);
   Cell_sights sights(level, trial.occluders, model);
   std::size_t refuted = 0;
   Json sightlines = Json::array();
@@ -385,8 +409,11 @@ Exit compare_cells(const Compare_arguments& arguments) {
     r["sizes"] = {{"wrongly_hidden", sizes_json(of_hidden)}, {"wrongly_visible", sizes_json(of_visible)}};
     r.erase("sample");
     if (r["method"] == "the file's table") {
-      sightlines = sightlines_json(question, common.scene, trial.tree, hidden);
-      refuted = refutations(question, *file, sights, Time_limit(common.budget).end());
+      const Cell_sights::Is_over also_over = Time_limit(common.budget).end();
+      std::vector<std::pair<Cell_id, Cell_sightline>> lines = refutations(question, *file, sights, also_over);
+      refuted = lines.size();
+      sightlines =
+          sightlines_json(question, common.scene, trial.tree, measured(std::move(lines), sights, also_over), to_files);
     }
   }
   if (!arguments.html.empty()) write_comparison(arguments, level.scene(), rows);
@@ -425,8 +452,8 @@ Exit compare_cells(const Compare_arguments& arguments) {
                     leaves->refuted, leaves->through_solid));
   }
   if (file)
-    row("the table", fmt::format("hides {} pairs of a cell and a face that have an exact sightline; --json lists the "
-                                 "largest, and how to draw them",
+    row("the table", fmt::format("hides {} pairs of a cell and a face that have an exact sightline; --json lists "
+                                 "them, the largest first, and how to draw each",
                                  refuted));
   return exit;
 }

@@ -15,9 +15,4 @@ namespace sightline::app {
 bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table,
                         const Time_limit& limit, const Shard& own, Ranks& ranks);
 
-/// Puts the parts of an index that shards wrote into one, byte by byte what one run writes, and removes them. Returns
-/// whether their certificates leave nothing undecided. Errors: Input_error where one is missing, and then which shard
-/// to run again; where they are of several divisions, or answer another question.
-bool join_certificates(const std::string& folder, const std::string& question);
-
 }  // namespace sightline::app

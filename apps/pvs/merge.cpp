@@ -1,6 +1,7 @@
 // sightline merge: the parts of a table together.
 
-#include "certificates.h"
+#include "../support/files.h"
+#include "cell_index.h"
 #include "pvs.h"
 #include "tables.h"
 
@@ -16,9 +17,10 @@ struct Merge_arguments {
 };
 
 Exit run_merge(const Merge_arguments& arguments) {
-  if (arguments.out.ends_with(".bsp"))
+  if (ending_of(arguments.out) == ".bsp")
     throw Usage_error(
-        "--out: a level has a table of leaves, which parts do not hold: `pvs LEVEL --out FILE.bsp` makes it");
+        "--out: a level is no table; write one, and `pvs LEVEL.bsp --leaves --table TABLE --out FILE.bsp` puts that of "
+        "--cells-too into a copy of the level");
   std::vector<Visibility_table> parts;
   for (const std::string& file : arguments.parts) {
     const std::string bytes = read_input(file);
@@ -26,7 +28,7 @@ Exit run_merge(const Merge_arguments& arguments) {
   }
   try {
     const Visibility_table table = merged(parts, arguments.parts);
-    const bool all_proved = arguments.certificates.empty() || join_certificates(arguments.certificates, table.question);
+    const bool all_proved = arguments.certificates.empty() || join_index(arguments.certificates, table.question);
     write_table(arguments.out, table);
     const std::size_t undecided = count_of(table, &Visibility_table::Row::undecided),
                       cells_undecided = count_of(table, &Visibility_table::Row::cells_undecided) / 2;

@@ -4,12 +4,15 @@
 #include "pvs.h"
 
 #include "../support/drawing.h"
+#include "../support/files.h"
 #include "certificates.h"
 #include "drawings.h"
+#include "into_level.h"
 #include "table_maker.h"
 #include "tables.h"
 
 #include <sightline/io/file.h>
+#include <sightline/io/input.h>
 
 #include <algorithm>
 
@@ -17,101 +20,59 @@ namespace sightline::app {
 
 namespace {
 
-/// How much of a whole.
-double percent(std::size_t part, std::size_t whole) {
-  return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, whole));
-}
-
-void row_of_cells(const Cell_pvs_counters& c, std::size_t pairs, std::size_t visible, std::size_t undecided) {
-  row("", fmt::format("{} of two cells: {} see each other ({:.3g}%), {} undecided", pairs, visible,
-                      percent(visible, pairs), undecided));
-  row("",
-      fmt::format("{} neighbours, {} along random lines, {} along a sightline made longer; {} searches, {} of which "
-                  "found hidden, {} left to events; {} pairs were not reached",
-                  c.adjacent, c.by_lines, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
-}
-
-/// A copy of a compiled level with what its leaves see in the place of its own table: cells from cells alone.
-Exit run_into_level(const Pvs_arguments& arguments) {
-  const Common& common = arguments.common;
-  if (!arguments.shard.empty() || arguments.resume || !arguments.show.empty() || !arguments.certificates.empty())
-    throw Usage_error("--out FILE.bsp is about leaves alone: leave out --shard, --resume, --show and --certificates");
-  if (!arguments.svg.empty() || !arguments.html.empty() || !arguments.obj.empty() || !arguments.mesh.empty())
-    throw Usage_error("--out FILE.bsp draws nothing: leave out --svg, --html, --obj and --mesh, or name another --out");
-  if (const Division_arguments& d = arguments.division;
-      !d.grid.empty() || !d.volumes.empty() || d.coarse > 0 || !arguments.cells.empty())
-    throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --cells, --grid, --volumes and --coarse");
-  const std::string bytes = compiled_level(common, "--out FILE.bsp");
-  const Quake_level file = read_quake_level({common.scene, bytes});
-  const Polygon_soup soup = common.read();
-  const Stopwatch watch;
-  const Time_limit limit(common.budget);
-  Division division;
-  division.candidates = arguments.division.candidates;
-  division.seed = common.seed;
-  division.tree = space_tree(file, common.scene);
-  const Level_cells level = cells_of(common, soup, division);
-  const double cells_seconds = watch.seconds();
-  Progress progress("looking");
-  Pvs_options options;
-  options.outside = arguments.outside;
-  options.threads = common.threads;
-  options.search.seed = common.seed;
-  options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
-  options.search.out_of_time = limit.end();
-  const Cell_pvs pvs = mutually_visible_cells(level, options);
-  progress.clear();
-  const double seconds = watch.seconds() - cells_seconds;
-  const std::vector<std::vector<bool>> rows = rows_of_level(level, pvs, file);
-  write_file(arguments.out, with_visibility(bytes, rows));
-
-  std::size_t visible = 0;
-  for (const std::vector<bool>& row : rows)
-    visible += static_cast<std::size_t>(std::count(row.begin(), row.end(), true));
-  const Cell_pvs_counters& c = pvs.counters;
-  const Exit exit = c.undecided > 0 ? Exit::undecided : Exit::done;
-  Json counters = counters_json(c);
-  counters["cells"] = counters_json(level.counters());
-  if (write_json(common, "pvs", level.scene(),
-                 {{"cells", c.cells},
-                  {"faces", 0},
-                  {"visible", 0},
-                  {"undecided", 0},
-                  {"blocks_kept", 0},
-                  {"pairs_of_cells", {{"visible", c.visible}, {"undecided", c.undecided}}},
-                  {"leaves", {{"leaves", rows.size()}, {"visible", visible}}}},
-                 std::move(counters), {{"cells", cells_seconds}, {"pvs", seconds}}))
-    return exit;
-  scene_rows(level.scene());
-  row("cells", fmt::format("{} of {} are asked about", c.cells, level.counters().cells));
-  row_of_cells(c, c.pairs, c.visible, c.undecided);
-  row("leaves", fmt::format("{} have rows: of {} pairs, each with itself too, {} are visible", rows.size(),
-                            rows.size() * rows.size(), visible));
-  row("seconds", fmt::format("{:.3f} for cells, {:.3f} for what they see", cells_seconds, seconds));
-  return exit;
-}
-
 /// Of what does not go together.
 void check_usage(const Pvs_arguments& arguments, const Shard& own) {
   const bool has_drawing = !arguments.svg.empty() || !arguments.obj.empty() || !arguments.mesh.empty();
   if (arguments.resume && (arguments.out.empty() || arguments.out == "-"))
     throw Usage_error("--resume keeps what is done beside an output: name it with --out FILE");
-  if (own.shards > 1 && !arguments.show.empty())
+  if (own.shards > 1 && !arguments.shown.empty())
     throw Usage_error("a shard has some faces only: leave out --show, or --shard");
-  if (arguments.show.empty() && has_drawing)
+  if (const std::string ending = ending_of(arguments.out); own.shards > 1 && (ending == ".json" || ending == ".csv"))
+    throw Usage_error("a shard has some faces only, which --out FILE" + ending +
+                      " would not say: name one that is binary, for `merge`");
+  if (arguments.shown.empty() && has_drawing)
     throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
   arguments.view.check_usage(!arguments.svg.empty());
   if (arguments.svg.empty() && !arguments.eye.empty())
     throw Usage_error("--eye is the eye of the picture: add --svg FILE, or leave it out");
 }
 
-/// What --show names is a cell that is asked about.
-void check_shown(const Pvs_arguments& arguments, const Level_cells& level) {
+/// A level that is not shut would be asked about what is outside, too. Errors: Input_error where what stands in it has
+/// a way out.
+void check_leaks(const Common& common, const Level_cells& level) {
+  for (const Map_place& place : places_of(common).value_or(std::vector<Map_place>{}))
+    if (!level.way_out(place.origin).empty())
+      throw Input_error::of_file(
+          common.scene,
+          fmt::format("is not shut: there is a way out from {} at {}, {}, {}; `sightline cells SCENE "
+                      "--seal entities` shows ways; --outside asks about all cells",
+                      place.name, to_string(place.origin[0]), to_string(place.origin[1]), to_string(place.origin[2])));
+}
+
+/// The cells that --show names: by number, or by a point in or on the border of one. Errors: Usage_error where there is
+/// none, or it is not asked about.
+std::vector<Cell_id> shown_cells(const Pvs_arguments& arguments, const Level_cells& level) {
   const std::vector<char> asked = asked_cells(level, arguments.outside);
-  for (const Cell_id cell : arguments.show)
-    if (cell >= asked.size() || asked[cell] == 0)
+  std::vector<Cell_id> cells;
+  for (const std::string& text : arguments.shown) {
+    std::vector<Cell_id> named;
+    if (text.find(',') != std::string::npos) {
+      named = level.about(parse_point(text, "--show"));
+    } else {
+      if (text.empty() || text.size() > 9 || text.find_first_not_of("0123456789") != std::string::npos)
+        throw Usage_error("--show " + text + ": give a cell's number, or a point X,Y,Z of one; may be repeated");
+      named.push_back(static_cast<Cell_id>(std::stoul(text)));
+    }
+    const auto found =
+        std::find_if(named.begin(), named.end(), [&](Cell_id cell) { return cell < asked.size() && asked[cell] != 0; });
+    if (found == named.end())
       throw Usage_error(
-          fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
+          fmt::format("--show {}: no such cell, or one that is not asked about; `pvs --out FILE.csv` "
+                      "lists those that are",
+                      text));
+    cells.push_back(*found);
+  }
+  return cells;
 }
 
 /// What is told of a table.
@@ -170,8 +131,16 @@ Json result_json(const Pvs_arguments& arguments, const Level_cells& level, const
   return result;
 }
 
-/// How the pairs of the table were decided.
-void print(const Table_maker& maker, const Table_facts& facts, bool cells_too) {
+/// How the pairs of the table were decided; of one that was there before, what it says.
+void print(const Table_maker* of_now, const Table_facts& facts, bool cells_too) {
+  if (of_now == nullptr) {
+    row("pairs", fmt::format("{} of a cell and a face visible, {} undecided", facts.visible, facts.undecided));
+    if (cells_too)
+      row("", fmt::format("{} of two cells: {} see each other, {} undecided", facts.cells_pairs, facts.cells_visible,
+                          facts.cells_undecided));
+    return;
+  }
+  const Table_maker& maker = *of_now;
   const Pvs_counters& c = maker.counters();
   row("pairs", maker.blocks_kept() > 0
                    ? fmt::format("{} of a cell and a face visible, {} undecided; {} asked about now, the others kept",
@@ -182,6 +151,9 @@ void print(const Table_maker& maker, const Table_facts& facts, bool cells_too) {
                           "{} left to events; {} pairs were not reached",
                           c.within, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
   if (cells_too) row_of_cells(maker.cell_counters(), facts.cells_pairs, facts.cells_visible, facts.cells_undecided);
+}
+
+void print_groups(const Table_facts& facts) {
   if (!facts.names) return;
   std::size_t pairs = 0;
   for (const Group_row& group : facts.groups) pairs += group.visible.size();
@@ -191,14 +163,16 @@ void print(const Table_maker& maker, const Table_facts& facts, bool cells_too) {
                   facts.groups.size(), pairs));
 }
 
-Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
+Exit run_pvs(const Pvs_arguments& given, Ranks& ranks) {
+  Pvs_arguments arguments = given;
   const Common& common = arguments.common;
-  if (!ranks.is_alone() && arguments.out.ends_with(".bsp"))
-    throw Usage_error("--out FILE.bsp is asked of one process: call it without mpirun");
-  if (arguments.out.ends_with(".bsp")) return run_into_level(arguments);
-  if (!ranks.is_alone() && (common.scene == "-" || arguments.cells == "-"))
+  const bool into_level = ending_of(arguments.out) == ".bsp";
+  if (!ranks.is_alone() && into_level)
+    throw Usage_error("--out FILE.bsp is asked of one process: call it without mpirun, with the --table that one made");
+  if (into_level) return run_into_level(arguments);
+  if (!ranks.is_alone() && (common.scene == "-" || arguments.cells == "-" || arguments.table == "-"))
     throw Usage_error("of several processes one alone has a standard input: name a file that all can read");
-  const Shard own = shard_of(arguments.shard);
+  const Shard own = arguments.table.empty() ? shard_of(arguments.shard) : Shard{};
   check_usage(arguments, own);
 
   // 1. The cells.
@@ -212,16 +186,25 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   const Level_cells level = cells_of(common, soup, division);
   if (file) division.known_regions = file->checked_regions(level);
   file.reset();
-  if (division.kind == Division::Kind::regions && ranks.is_first())  // while there is no table yet to lose
-    division.known_regions = division.groups(level, in_time);
+  if (ranks.is_first()) {  // while there is no table yet to lose
+    if (division.kind == Division::Kind::regions) division.known_regions = division.groups(level, in_time);
+    if (!arguments.outside) check_leaks(common, level);
+    arguments.show = shown_cells(arguments, level);
+  }
   const double cells_seconds = watch.seconds();
-  check_shown(arguments, level);
 
   // 2. What they see.
-  Table_maker maker(arguments, division, soup, level, limit);
-  const bool in_blocks = arguments.resume || !ranks.is_alone();
-  const Visibility_table table = in_blocks ? maker.make_in_blocks(own, ranks) : maker.make(own);
-  maker.clear();
+  std::optional<Table_maker> maker;
+  Visibility_table table;
+  if (arguments.table.empty()) {
+    maker.emplace(arguments, division, soup, level, limit);
+    const bool in_blocks = arguments.resume || !ranks.is_alone();
+    table = in_blocks ? maker->make_in_blocks(own, ranks) : maker->make(own);
+    maker->clear();
+  } else if (ranks.is_first()) {
+    table = saved_table(arguments, soup, division);
+    arguments.cells_too = table.has_cells();
+  }
   if (!ranks.is_first()) {
     if (!arguments.certificates.empty()) write_certificates(arguments, level, table, limit, own, ranks);
     return Exit::done;
@@ -230,31 +213,36 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   const Table_facts facts = facts_of(table, division, level);
 
   // 3. What is written.
-  if (!arguments.out.empty()) write_table(arguments.out, table);
+  if (!arguments.out.empty())
+    write_table(arguments.out, table,
+                facts.names ? Json{{facts.names->all, groups_json(facts.groups, division, *facts.names)}} : Json{});
   if (!arguments.svg.empty()) draw(arguments, soup, level, table);
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of_table(level, table, arguments.show));
   if (!arguments.html.empty()) write_page(arguments, level, table);
   const bool all_proved =
       arguments.certificates.empty() || write_certificates(arguments, level, table, limit, own, ranks);
-  if (arguments.resume && facts.is_decided() && all_proved) maker.remove_kept();
+  if (maker && arguments.resume && facts.is_decided() && all_proved) maker->remove_kept();
   const Exit exit = !facts.is_decided() || !all_proved ? Exit::undecided : Exit::done;
-  Json counters = counters_json(maker.counters());
+  const std::uint32_t blocks_kept = maker ? maker->blocks_kept() : table_blocks;
+  const double pairs_seconds = maker ? maker->cell_seconds() : 0;
+  Json counters = counters_json(maker ? maker->counters() : Pvs_counters{});
   counters["cells"] = counters_json(level.counters());
-  if (arguments.cells_too) counters["pairs_of_cells"] = counters_json(maker.cell_counters());
-  if (write_json(common, "pvs", level.scene(),
-                 result_json(arguments, level, division, table, facts, maker.blocks_kept()), std::move(counters),
-                 {{"cells", cells_seconds}, {"pvs", seconds}, {"pairs_of_cells", maker.cell_seconds()}}))
+  if (arguments.cells_too)
+    counters["pairs_of_cells"] = counters_json(maker ? maker->cell_counters() : Cell_pvs_counters{});
+  if (write_json(common, "pvs", level.scene(), result_json(arguments, level, division, table, facts, blocks_kept),
+                 std::move(counters), {{"cells", cells_seconds}, {"pvs", seconds}, {"pairs_of_cells", pairs_seconds}}))
     return exit;
 
   // 4. For people.
   scene_rows(level.scene());
   row("cells", fmt::format("{} of {} are asked about", table.rows.size(), level.counters().cells));
-  print(maker, facts, arguments.cells_too);
+  print(maker ? &*maker : nullptr, facts, arguments.cells_too);
+  print_groups(facts);
   if (arguments.resume)
     row("resumed",
         fmt::format(
-            "{} of {} blocks were there{}", maker.blocks_kept(), table_blocks,
+            "{} of {} blocks were there{}", blocks_kept, table_blocks,
             facts.is_decided() ? "" : "; those that are decided are kept, and the same command goes on from there"));
   for (const Cell_id cell : arguments.show) {
     row(fmt::format("cell {}", cell), fmt::format("sees {}", fmt::join(table.row_of(cell)->visible, " ")));
@@ -262,7 +250,7 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   }
   row("seconds",
       fmt::format("{:.3f} for cells, {:.3f} for what they see{}", cells_seconds, seconds,
-                  arguments.cells_too ? fmt::format(", {:.3f} of it for pairs of cells", maker.cell_seconds()) : ""));
+                  arguments.cells_too ? fmt::format(", {:.3f} of it for pairs of cells", pairs_seconds) : ""));
   return exit;
 }
 
@@ -289,7 +277,13 @@ void add_pvs(Command program) {
                                        "within: boxes, volumes or convex regions")
                            .reads_file();
   for (const Option& way : ways) cells.excludes(way);
-  command.add_option("--show", a->show, "print what this cell sees; may be repeated");
+  const Option table =
+      command
+          .add_option("--table", a->table,
+                      "the whole table that `pvs` or `merge` wrote of SCENE with the same options: show, draw, prove "
+                      "and write that, and ask nothing again")
+          .reads_file();
+  command.add_option("--show", a->shown, "print what this cell sees, or that of a point X,Y,Z; may be repeated");
   add_mesh_option(command, a->mesh, "faces visible, hidden, undecided from --show, and the cells,");
   command.add_option("--obj", a->obj, "the same as OBJ").writes_file(".obj");
   command
@@ -304,18 +298,21 @@ void add_pvs(Command program) {
           "write a certificate for each cell, and an index that states the cells, to this folder; of a shard those "
           "of its cells, and a part of the index, for `merge --certificates`")
       .check(not_empty());
-  command.add_option(
+  const Option shard = command.add_option(
       "--shard", a->shard,
       "I/N: the faces, pairs whose lower cell, and cells with certificates, are each I-th of N; by default what "
       "SLURM_ARRAY_TASK_ID and _COUNT say");
-  command.add_flag("--resume", a->resume,
-                   "keep blocks of faces beside --out, and cells with certificates in their folder, and do not ask "
-                   "again what they hold");
+  const Option resume =
+      command.add_flag("--resume", a->resume,
+                       "keep blocks of faces beside --out, and cells with certificates in their folder, and do not ask "
+                       "again what they hold");
+  for (const Option& of_asking : {shard, resume}) table.excludes(of_asking);
   command.footer(
       "Example: sightline pvs level.map --out level.pvs\n"
       "         for i in 0 1 2 3; do sightline pvs level.map --shard $i/4 --out part$i.pvs --resume & done; wait\n"
       "         sightline merge part?.pvs --out level.pvs\n"
       "         mpirun -n 3 sightline pvs level.map --threads 1 --resume --out level.pvs\n"
+      "         sightline pvs level.map --table level.pvs --show 64,64,24 --svg seen.svg\n"
       "         sightline pvs level.bsp --out better.bsp\n"
       "Cells are those of `sightline cells` with the same --candidates, --seed, --leaves, --grid and --volumes; with "
       "--cells FILE, whatever --seed is. Exit "

@@ -18,10 +18,11 @@ constexpr std::uint32_t table_blocks = 64;  // parts that --resume saves what is
 struct Pvs_arguments {
   Common common;
   View_arguments view;
-  std::string out, cells, shard, svg, html, eye, obj, mesh, certificates;
+  std::string out, table, cells, shard, svg, html, eye, obj, mesh, certificates;
   bool outside = false, resume = false, cells_too = false;
   Division_arguments division;
-  std::vector<std::uint32_t> show;
+  std::vector<std::string> shown;  // as --show has them: a cell, or a point of one
+  std::vector<Cell_id> show;       // the same as cells, once these are known
 };
 
 }  // namespace sightline::app

@@ -1,5 +1,7 @@
 #include "table_maker.h"
+
 #include "../support/files.h"
+#include "tables.h"
 
 #include <sightline/io/binary.h>
 #include <sightline/io/file.h>
@@ -16,17 +18,23 @@ namespace fs = std::filesystem;
 Table_maker::Table_maker(const Pvs_arguments& arguments, const Division& division, const Polygon_soup& soup,
                          const Level_cells& level, const Time_limit& limit)
     : arguments_(arguments), level_(level), limit_(limit), faces_(soup.face_count()), search_(level, options()) {
-  question_ =
-      fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), division.candidates, division.seed,
-                  arguments.outside ? ", outside" : "", division.question(), arguments.cells_too ? ", cells too" : "");
+  question_ = question_of(soup, division, arguments.outside, arguments.cells_too);
   if (arguments.cells_too) cell_search_.emplace(level, options());
   const std::vector<char> asked = asked_cells(level, arguments.outside);
   asked_.assign(asked.begin(), asked.end());
 }
 
+static bool is_decided(const Visibility_table& table) {
+  return std::all_of(table.rows.begin(), table.rows.end(), [](const Visibility_table::Row& row) {
+    return row.undecided.empty() && row.cells_undecided.empty();
+  });
+}
+
 Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
-  // 1. What was made before.
+  // 1. What was made before: all, or some blocks.
   const bool keep = arguments_.resume && ranks.is_first();
+  std::optional<Visibility_table> whole = keep ? kept(arguments_.out, own) : std::nullopt;
+  if (whole && !is_decided(*whole)) whole.reset();
   const fs::path folder = keep ? kept_folder() : fs::path();
   std::vector<Visibility_table> parts(table_blocks);
   std::vector<std::string> names;
@@ -38,6 +46,7 @@ Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
     const auto [shard, shards] = shard_of_block(b);
     names.push_back((folder / fmt::format("{}-of-{}.pvs", shard, shards)).string());
     if (keep) blocks_.push_back(names.back());
+    if (whole) continue;
     std::optional<Visibility_table> before = keep ? kept(names[b], {shard, shards}) : std::nullopt;
     if (before) parts[b] = *std::move(before);
     else missing.push_back(b);
@@ -52,12 +61,10 @@ Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
       [&](std::uint32_t b, const std::string& answer) {
         parts[b] = counted(read_part(names[b], answer));
         --blocks_left_;
-        const bool whole = std::all_of(
-            parts[b].rows.begin(), parts[b].rows.end(),
-            [](const Visibility_table::Row& row) { return row.undecided.empty() && row.cells_undecided.empty(); });
-        if (keep && whole) write_bytes(names[b], table_bytes(parts[b]));  // what time left open is asked again
+        if (keep && is_decided(parts[b])) write_bytes(names[b], table_bytes(parts[b]));  // else it is asked again
       },
       [this](std::size_t done, std::size_t all) { progress_(done, all); });
+  if (whole) return *std::move(whole);
   return ranks.is_first() ? joined(parts, names) : Visibility_table{};
 }
 

@@ -25,7 +25,8 @@ class Table_maker {
   Visibility_table make(const Shard& own) { return counted(part(own)); }
 
   /// The same in blocks, each made by whoever is free of the processes that share the work, and with --resume kept in a
-  /// folder beside the output until all are there. In the first process; in others nothing.
+  /// folder beside the output until all are there; an output that is there already is taken as it is, where it is
+  /// binary, of this question and decided. In the first process; in others nothing.
   Visibility_table make_in_blocks(const Shard& own, Ranks& ranks);
   /// To be called when the table is written, and nothing is undecided: an end before that would lose what is kept.
   void remove_kept() const;

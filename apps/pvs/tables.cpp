@@ -1,5 +1,10 @@
 #include "tables.h"
 
+#include "../support/files.h"
+#include "../support/versions.h"
+
+#include <sightline/io/input.h>
+
 #include <algorithm>
 #include <map>
 
@@ -54,6 +59,26 @@ Json groups_json(const std::vector<Group_row>& rows, const Division& division, c
   return list;
 }
 
+std::string question_of(const Polygon_soup& soup, const Division& division, bool outside, bool cells_too) {
+  return fmt::format("sightline {}, scene {:016x}, candidates {}, seed {}{}{}{}", program_version(), fingerprint(soup),
+                     division.candidates, division.seed, outside ? ", outside" : "", division.question(),
+                     cells_too ? ", cells too" : "");
+}
+
+Visibility_table saved_table(const Pvs_arguments& arguments, const Polygon_soup& soup, const Division& division) {
+  const std::string bytes = read_input(arguments.table);
+  Visibility_table table = read_table({arguments.table, bytes});
+  const std::string question = question_of(soup, division, arguments.outside, table.has_cells());
+  if (table.question != question)
+    throw Input_error::of_file(arguments.table,
+                               fmt::format("is a table of \"{}\", not \"{}\"; give the options that it was made with",
+                                           table.question, question));
+  for (const std::vector<bool>* asked : {&table.faces, &table.lower_cells})
+    if (std::find(asked->begin(), asked->end(), false) != asked->end())
+      throw Input_error::of_file(arguments.table, "is a part of a table; `sightline merge` makes a whole one of all");
+  return table;
+}
+
 static Json table_json(const Visibility_table& table) {
   Json cells = Json::array();
   std::size_t r = 0;
@@ -85,10 +110,14 @@ static std::string table_csv(const Visibility_table& table) {
   return text;
 }
 
-void write_table(const std::string& out, const Visibility_table& table) {
-  write_file(out, out.ends_with(".json")  ? to_text(table_json(table)) + "\n"
-                  : out.ends_with(".csv") ? table_csv(table)
-                                          : table_bytes(table));
+void write_table(const std::string& out, const Visibility_table& table, const Json& groups) {
+  const std::string ending = ending_of(out);
+  Json json;
+  if (ending == ".json") {
+    json = table_json(table);
+    if (!groups.is_null()) json.update(groups);
+  }
+  write_file(out, ending == ".json" ? to_text(json) + "\n" : ending == ".csv" ? table_csv(table) : table_bytes(table));
 }
 
 std::size_t count_of(const Visibility_table& table, std::vector<std::uint32_t> Visibility_table::Row::*numbers) {

@@ -119,7 +119,7 @@ Json pvs_answer() {
                                    {"errors", errors},
                                    {"sizes?", object({{"wrongly_hidden", sizes}, {"wrongly_visible", sizes}})}});
   const Members sums{{"pairs", count}, {"visible", count}, {"undecided", count}, {"refuted", count}, {"rows", rows}};
-  const Members line{{"from", point}, {"to", point}};
+  const Members line{{"from", point}, {"to", point}, {"certificate?", type("string")}};
   const Json of_face = object(with(line, {{"leaf", count},
                                           {"face", a_face()},
                                           {"cell", count},

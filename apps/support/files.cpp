@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <csignal>
 #include <fstream>
 #include <iostream>
@@ -101,6 +102,12 @@ void check_folders(const std::vector<Named_file>& outputs, const std::vector<std
 // ---- Reading and writing
 
 fs::path input_path(const std::string& name) { return name == "-" ? "/dev/stdin" : name; }
+std::string ending_of(const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
 std::string read_input(const std::string& name) { return read_bytes(input_path(name)); }
 
 void write_file(const std::string& name, std::string_view text) {

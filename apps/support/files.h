@@ -30,6 +30,9 @@ void check_folders(const std::vector<Named_file>& outputs, const std::vector<std
 /// Makes a folder that is not there yet. Errors: std::runtime_error where none can be made, which says what to name.
 void make_folder(const std::filesystem::path& folder, std::string_view instead = "another folder");
 
+/// What a name ends with from its last dot on, in small letters: ".json"; nothing where it has none.
+std::string ending_of(const std::string& name);
+
 /// All bytes of an input. Errors: Input_error.
 std::string read_input(const std::string& name);
 /// The file that an input is: what "-" stands for has a name too.

@@ -97,6 +97,7 @@ Division Division_arguments::division(const Common& common, const Polygon_soup& 
       Volume_division found = convex_volumes(read, common.within_budget(progress));
       division.tree = std::move(found.tree);
       division.volumes = found.volumes;
+      if (division.volumes == 0) throw std::invalid_argument("has no face, and so no volume");
     } catch (const std::invalid_argument& error) {
       throw Input_error::of_file(volumes, error.what());
     }
@@ -154,6 +155,13 @@ std::string compiled_level(const Common& common, const std::string& wanted) {
   if (common.scene != "-")
     if (std::string bytes = read_bytes(common.scene); looks_like_quake_level(bytes)) return bytes;
   throw Usage_error(wanted + " is of a level that is compiled, version 29; SCENE is none");
+}
+
+std::optional<std::vector<Map_place>> places_of(const Common& common) {
+  const std::optional<Format> format = format_of_ending(common.scene);
+  if (format != Format::map && format != Format::bsp) return std::nullopt;
+  const std::string bytes = read_bytes(common.scene);
+  return format == Format::map ? read_map_places({common.scene, bytes}) : read_level_places({common.scene, bytes});
 }
 
 std::vector<std::vector<bool>> rows_of_level(const Level_cells& level, const Cell_pvs& pvs, const Quake_level& file) {

@@ -7,10 +7,12 @@
 #include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/cells.h>
 #include <sightline/io/quake_bsp.h>
+#include <sightline/io/quake_map.h>
 #include <sightline/own_leaves.h>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,9 @@ Level_cells cells_of(const Common& common, const Polygon_soup& soup, const Divis
 
 /// The bytes of SCENE where it is a compiled level. Errors: Usage_error that begins with `wanted` where it is none.
 std::string compiled_level(const Common& common, const std::string& wanted);
+
+/// What stands in SCENE, where it is a level by its name, .map or .bsp; nothing where it is none.
+std::optional<std::vector<Map_place>> places_of(const Common& common);
 
 /// What leaves see, as a level has it: rows[l] is of leaf l + 1. Pre: cells are within the leaves of the level's tree.
 std::vector<std::vector<bool>> rows_of_level(const Level_cells& level, const Cell_pvs& pvs, const Quake_level& file);

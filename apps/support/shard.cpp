@@ -33,9 +33,13 @@ Shard shard_of(const std::string& text) {
     if (number(count) > most)
       throw Usage_error(
           fmt::format("SLURM_ARRAY_TASK_COUNT {}: {} shards are the most; give --shard I/N", count, most));
-    const std::uint32_t shard = number(id) - (least == nullptr ? 0 : number(least)), shards = number(count);
-    if (shards == 0 || shard >= shards)
-      throw Usage_error("SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT name no shard; give --shard I/N");
+    const std::uint32_t shard = number(id), shards = number(count);
+    // Of another array, or of a part of one that is run again, it is not known how many shards there are.
+    if ((least != nullptr && number(least) != 0) || shard >= shards)
+      throw Usage_error(
+          fmt::format("SLURM_ARRAY_TASK_ID {} and SLURM_ARRAY_TASK_COUNT {} name no shard, as they do of --array=0-7; "
+                      "give --shard I/N",
+                      id, count));
     std::cerr << fmt::format("sightline: shard {}/{}, as the array of jobs says\n", shard, shards);
     return {shard, shards};
   }

@@ -13,6 +13,7 @@
 #include <sightline/harness/laws/level_pairs.h>
 #include <sightline/harness/laws/manners.h>
 #include <sightline/harness/laws/questions.h>
+#include <sightline/harness/laws/solid_oracle.h>
 #include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
@@ -368,24 +369,60 @@ std::vector<std::size_t> steps_out(const Level_cells& level) {
   return steps;
 }
 
+/// A place where several cells meet, or one within one: anywhere between a point of a cell and corners of its walls.
+Exact_point any_place_about(const Level_cells& level, Random& random) {
+  const Cell_id cell = static_cast<Cell_id>(random.below(level.cells().size()));
+  if (random.chance(1, 3)) return any_point_of(level, cell, random);
+  const std::vector<std::uint32_t>& walls = level.cells()[cell].walls;
+  const Points corners = level.polygon(level.walls()[walls[random.below(walls.size())]].corners);
+  const auto any_corner = [&] { return corners[random.below(corners.size())]; };
+  Exact_point p = any_corner();  // of the wall: a corner, on an edge, inside
+  for (std::uint64_t more = random.below(3); more > 0; --more)
+    p = generate::along(p, generate::ratio(static_cast<long>(random.below(65)), 64), minus(any_corner(), p));
+  return p;
+}
+
+/// By the sides of walls that a point is on: the cells none of whose walls it is beyond.
+std::vector<Cell_id> cells_about(const Level_cells& level, const Exact_point& p) {
+  std::vector<char> is_beyond(level.cells().size(), 0);
+  for (const Cell_wall& wall : level.walls()) {
+    const Rational height = Flat_face(level.polygon(wall.corners)).height(p);
+    if (height < 0) is_beyond[wall.front] = 1;
+    if (height > 0 && wall.behind != no_cell) is_beyond[wall.behind] = 1;
+  }
+  std::vector<Cell_id> cells;
+  for (Cell_id c = 0; c < level.cells().size(); ++c)
+    if (is_beyond[c] == 0) cells.push_back(c);
+  return cells;
+}
+
 Outcome ways_out(const Posed_scene& posed, const Answer&, Random& random) {
   const Level_cells level(posed.soup);
   const std::vector<std::size_t> steps = steps_out(level);
   for (std::size_t k = 0; k < 12; ++k) {
-    const Cell_id cell = static_cast<Cell_id>(random.below(level.cells().size()));
-    const std::vector<Cell_id> way = level.way_out(any_point_of(level, cell, random));
-    const bool is_kept_in = level.cells()[cell].is_solid || steps[cell] == no_way;
-    const std::string from = "from cell " + std::to_string(cell);
-    if (way.empty() != is_kept_in) return Outcome::failed(from + (is_kept_in ? " there is no way out" : " no way out"));
-    if (is_kept_in) continue;
-    if (way.front() != cell || way.size() != steps[cell] + 1) return Outcome::failed(from + " another way is shorter");
+    const Exact_point p = any_place_about(level, random);
+    const std::string from = "from " + text_of(p);
+    const std::vector<Cell_id> cells = cells_about(level, p), way = level.way_out(p);
+    if (level.about(p) != cells) return Outcome::failed("about " + text_of(p) + " are other cells");
+    const auto is_open = [&](Cell_id cell) { return !level.cells()[cell].is_solid; };
+    const auto open = std::find_if(cells.begin(), cells.end(), is_open);
+    if (level.at(p) != (open == cells.end() ? cells.front() : *open)) return Outcome::failed(from + " in another cell");
+    std::size_t least = no_way;
+    for (const Cell_id cell : cells)
+      if (is_open(cell)) least = std::min(least, steps[cell]);
+    if (way.empty() != (least == no_way))
+      return Outcome::failed(from + (way.empty() ? " no way out" : " there is no way out"));
+    if (way.empty()) continue;
+    if (!std::binary_search(cells.begin(), cells.end(), way.front()))
+      return Outcome::failed(from + " another place's way");
+    if (way.size() != least + 1) return Outcome::failed(from + " another way is shorter");
     for (std::size_t i = 0; i + 1 < way.size(); ++i)
       if (steps[way[i]] != steps[way[i + 1]] + 1 || !have_a_way(level, way[i], way[i + 1]))
         return Outcome::failed(from + " the way out goes through a wall");
   }
   Exact_point beyond = level.inside(0);
   for (const Exact_point& p : level.points()) beyond[0] = std::max(beyond[0], Rational(p[0] + 1));
-  return level.at(beyond) == no_cell && level.way_out(beyond).empty()
+  return level.at(beyond) == no_cell && level.about(beyond).empty() && level.way_out(beyond).empty()
              ? Outcome{}
              : Outcome::failed("a point beyond the box is in a cell");
 }
@@ -420,7 +457,9 @@ Subject pvs() {
                        2, levels_subject::coarse),
       check_of_a_share("certificates", "what is true of cells is accepted, and what is not is refused", 2,
                        levels_subject::certificates),
-      {"ways", "ways out go through open walls, as few as can be, and are there iff some wall after another is open",
+      {"ways",
+       "cells about a place are those whose walls it is not beyond; ways out of them go through open walls, as few as "
+       "can be, and are there iff some wall after another is open",
        levels_subject::ways_out}};
   subject.checks.push_back(hasty_levels_check());
   subject.checks.push_back(manners_check(questions_of_pvs()));

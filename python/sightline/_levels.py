@@ -159,7 +159,7 @@ class Cells(Sequence[Cell]):
         return self._level.is_closed
 
     def at(self, point: Any) -> Optional[Cell]:
-        """The cell that a point is in; on a wall, that in front of it; None beyond the box."""
+        """The cell that a point is in; on a wall one beside it, which is not solid if one is not; None beyond the box."""
         cell = self._level.at(point)
         return None if cell is None else Cell(self, cell)
 

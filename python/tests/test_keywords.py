@@ -85,7 +85,7 @@ commands = {
             "coarse": "Cells.coarse()",
             "show": "visible[cell]",
             "eye": picture,
-            "out": "table()",
+            **dict.fromkeys(("out", "table"), "table()"),
             "certificates": "PotentiallyVisible.certificate()",
             **dict.fromkeys(("shard", "resume"), program_alone),
         },
@@ -100,7 +100,10 @@ commands = {
     ),
     "verify": (
         Scene.verify,
-        {"sample": program_alone, **dict.fromkeys(("solid", "result"), "SolidCertificate.verify()")},
+        {
+            **dict.fromkeys(("sample", "cell"), program_alone),
+            **dict.fromkeys(("solid", "result"), "SolidCertificate.verify()"),
+        },
     ),
     "generate": (sightline.generate, {"query": "Generated", "out": "Scene.write()", "second": "Generated.first"}),
 }

@@ -12,6 +12,7 @@
 #include <sightline/algorithms/levels/grid.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/io/binary.h>
 #include <sightline/io/exact_text.h>
 #include <sightline/io/materials.h>
 #include <sightline/io/quake_bsp.h>
@@ -751,7 +752,19 @@ inline void try_decimal_sizes(generate::Random& random) {
     require(!std::signbit(std::get<double>(*rounded)), "what is rounded to 0 has no sign");
 }
 
-/// Entities without brushes stand where their last origin says; an origin that is not three decimals is refused.
+/// The bytes of a compiled level that has entities and nothing else.
+inline std::string level_of_entities(const std::string& text) {
+  constexpr std::size_t header = 124;  // the version, then where each of 15 lumps begins and how long it is
+  std::string bytes;
+  store(bytes, std::int32_t{29});
+  store(bytes, static_cast<std::int32_t>(header));
+  store(bytes, static_cast<std::int32_t>(text.size()));
+  bytes.resize(header, '\0');
+  return bytes + text;
+}
+
+/// Entities without brushes, or a model of the level's in their place, stand where their last origin says; an origin
+/// that is not three decimals is refused. So in a .map, and in a compiled level, whose text ends with a byte of 0.
 inline void try_map_places(generate::Random& random) {
   std::string text;
   std::vector<std::pair<std::string, Exact_point>> expected;
@@ -760,8 +773,8 @@ inline void try_map_places(generate::Random& random) {
     text += "{\n";
     std::string name;
     std::optional<Exact_point> origin;
-    bool has_brush = false;
-    for (std::size_t keys = random.below(5); keys > 0; --keys) switch (random.below(4)) {
+    bool has_brush = false, has_model = false;
+    for (std::size_t keys = random.below(5); keys > 0; --keys) switch (random.below(5)) {
         case 0:
           name = random.chance(1, 2) ? "light" : "info_player_start";
           text += "\"classname\" \"" + name + "\"\n";
@@ -769,6 +782,10 @@ inline void try_map_places(generate::Random& random) {
         case 1:
           text += "{\n( 0 0 0 ) ( 0 1 0 ) ( 1 0 0 ) stone 0 0 0 1 1\n}\n";
           has_brush = true;
+          break;
+        case 2:
+          has_model = random.chance(1, 2);  // else one of a file of its own
+          text += has_model ? "\"model\" \"*7\"\n" : "\"model\" \"a*.mdl\"\n";
           break;
         default: {
           const std::size_t numbers = random.chance(1, 12) ? 2 + 2 * random.below(2) : 3;
@@ -784,10 +801,15 @@ inline void try_map_places(generate::Random& random) {
         }
       }
     text += "}\n";
-    if (origin && !has_brush) expected.emplace_back(name, *origin);
+    if (origin && !has_brush && !has_model) expected.emplace_back(name, *origin);
   }
   std::vector<Map_place> places;
-  const bool refused = is_refused<Input_error>([&] { places = read_map_places({"places", text}); });
+  const bool is_compiled = random.chance(1, 2);
+  const std::string level =
+      level_of_entities(text + (random.chance(1, 2) ? std::string("\0}{ nothing", 11) : std::string()));
+  const bool refused = is_refused<Input_error>([&] {
+    places = is_compiled ? read_level_places({"places", level}) : read_map_places({"places", text});
+  });
   require(refused == is_wrong, "an origin is three decimals");
   if (refused) return;
   require(std::equal(places.begin(), places.end(), expected.begin(), expected.end(),

@@ -226,10 +226,12 @@ struct Tiny_level {
   std::vector<std::pair<std::int32_t, std::int32_t>> leaves{{-2, -1}, {-1, 0}, {-1, 2}, {-3, -1}};  // contents, row
   std::string rows = std::string("\x03\x05\x00\x01", 4);  // leaves 1, 2; 1, 3; none
   std::int32_t visible_leaves = 3;
+  std::string entities;
   std::vector<std::array<std::int16_t, 2>> nodes{{-2, 1}, {-3, -1}};
 
   std::string bytes() const {
     std::array<std::string, 15> lumps;
+    lumps[0] = entities;
     for (const float x : {0.f, 0.f, 1.f, 0.f}) store(lumps[1], x);
     store(lumps[1], std::int32_t{2});
     for (const auto& p : points)
@@ -284,6 +286,25 @@ TEST(Quake_bsp, faces_tree_leaves_and_table_are_read) {
   EXPECT_EQ(level.seen_from(1), (std::vector<std::size_t>{1, 2}));
   EXPECT_EQ(level.seen_from(2), (std::vector<std::size_t>{}));
   EXPECT_EQ(level.seen_from(3), (std::vector<std::size_t>{1, 2, 3}));  // no row
+}
+
+TEST(Quake_bsp, places_are_the_origins_of_what_has_no_model_of_the_file) {
+  Tiny_level level;
+  level.entities =
+      "{\n\"classname\" \"worldspawn\"\n}\n{\n\"classname\" \"light\"\n\"origin\" \"1 -2.5 3\"\n}\n"
+      "{\n\"model\" \"*1\"\n\"origin\" \"7 7 7\"\n}\n{\n\"model\" \"a.mdl\"\n\"origin\" \"0 0 0\"\n}\n";
+  level.entities.push_back('\0');
+  const std::vector<Map_place> places = read_level_places({"scene", level.bytes()});
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[0].name, "light");
+  EXPECT_EQ(places[0].origin, (Exact_point{1, Rational(-5, 2), 3}));
+  EXPECT_EQ(places[1].origin, (Exact_point{0, 0, 0}));
+  level.entities = "{\n\"origin\" \"1 2\"\n}\n";
+  EXPECT_THROW(read_level_places({"scene", level.bytes()}), Input_error);
+  const std::string bytes = level.bytes();
+  EXPECT_THROW(read_level_places({"scene", bytes.substr(0, 123)}), Input_error);
+  EXPECT_THROW(read_level_places({"scene", bytes.substr(0, 130)}), Input_error);  // within the entities
+  EXPECT_TRUE(read_level_places({"scene", Tiny_level().bytes()}).empty());
 }
 
 TEST(Quake_bsp, a_table_is_written_and_nothing_else) {

@@ -71,6 +71,19 @@ TEST(Level_cells, of_a_level_are_rooms_and_a_hull) {
   EXPECT_NE(level.cells()[first].region, level.cells()[beyond].region);
   EXPECT_TRUE(level.way_out({64, 64, 24}).empty());
   EXPECT_EQ(level.way_out({-20, 0, 0}), std::vector<Cell_id>{beyond});
+  // What stands on the floor, against a wall, or in a corner is in the room, whatever the tree's planes.
+  for (std::uint64_t seed = 1; seed < 5; ++seed) {
+    const Level_cells other(corpus_scene("general/two_rooms.map"), {.seed = seed});
+    for (const Exact_point& p : {Exact_point{64, 64, 0}, {0, 64, 24}, {0, 0, 0}}) {
+      const std::vector<Cell_id> cells = other.about(p);
+      EXPECT_TRUE(std::any_of(cells.begin(), cells.end(), [&](Cell_id c) { return other.cells()[c].is_solid; }));
+      EXPECT_EQ(other.cells()[other.at(p)].region, other.cells()[other.at({64, 64, 24})].region);
+      EXPECT_TRUE(other.way_out(p).empty());
+    }
+    EXPECT_EQ(other.about({64, 64, 24}).size(), 1u);
+    EXPECT_TRUE(other.cells()[other.at({-8, 64, 50})].is_solid);
+    EXPECT_TRUE(other.about({10000, 0, 0}).empty());
+  }
 }
 
 TEST(Level_cells, of_a_level_with_a_hole_have_a_way_out) {

@@ -210,9 +210,103 @@ TEST_F(Levels, a_leak_is_found_and_a_solid_point_refused) {
   const Outcome leak = run({"cells", rooms, "--seal", "-20,0,0", "--json", "-"});
   EXPECT_EQ(leak.code, disagreement) << leak;
   EXPECT_EQ(leak.json()["result"]["leaks"].size(), 1u);
-  const Outcome solid = run({"cells", rooms, "--seal", "-8,0,0"});
+  const Outcome solid = run({"cells", rooms, "--seal", "-8,64,50"});
   EXPECT_EQ(solid.code, usage) << solid;
-  EXPECT_NE(solid.err.find("solid cell"), std::string::npos) << solid;
+  EXPECT_NE(solid.err.find("--seal -8,64,50: the point is in a solid cell"), std::string::npos) << solid;
+}
+
+/// The two rooms less the ceiling's brush, or another one.
+static std::string without_brush(const std::string& rooms, std::size_t brush) {
+  std::ifstream in(rooms, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::size_t begin = text.find("\n{\n(");
+  for (; brush > 0; --brush) begin = text.find("\n{\n(", begin + 1);
+  return text.erase(begin, text.find("\n}", begin) + 2 - begin);
+}
+
+TEST_F(Levels, what_stands_on_a_brush_is_in_the_room_beside_it) {
+  std::string leak = without_brush(rooms, 1);
+  const std::string origin = "\"64 64 24\"";
+  ASSERT_NE(leak.find(origin), std::string::npos);
+  for (const char* place :
+       {"\"64 64 24\"", "\"64 64 0\"", "\"0 64 0\"", "\"0 0 0\""}) {  // in it, on its floor, an edge
+    std::string with_place = leak;
+    file("leak.map", with_place.replace(leak.find(origin), origin.size(), place));
+    for (const char* seed : {"1", "2", "3"}) {
+      const Outcome found = run({"cells", out("leak.map"), "--seal", "entities", "--seed", seed});
+      EXPECT_EQ(found.code, disagreement) << place << found;
+      EXPECT_NE(found.out.find("a leak"), std::string::npos) << found;
+    }
+    const Outcome refused = run({"pvs", out("leak.map"), "--out", out("leak.pvs")});
+    EXPECT_EQ(refused.code, bad_input) << refused;
+    EXPECT_NE(refused.err.find("there is a way out from info_player_start"), std::string::npos) << refused;
+    EXPECT_FALSE(std::filesystem::exists(path("leak.pvs")));
+  }
+  EXPECT_EQ(run({"pvs", out("leak.map"), "--outside"}).code, done);
+  // Where all stand in walls nothing is known.
+  std::ifstream in(rooms, std::ios::binary);
+  std::string shut{std::istreambuf_iterator<char>(in), {}};
+  file("shut.map", shut.replace(shut.find(origin), origin.size(), "\"-8 64 50\""));
+  const Outcome nothing = run({"cells", out("shut.map"), "--seal", "entities"});
+  EXPECT_EQ(nothing.code, bad_input) << nothing;
+  EXPECT_NE(nothing.err.find("nothing is known of leaks"), std::string::npos) << nothing;
+}
+
+TEST_F(Levels, a_table_that_is_there_is_shown_and_written_without_being_asked_again) {
+  for (const char* shard : {"0/2", "1/2"})
+    ASSERT_EQ(run({"pvs", rooms, "--grid", "3,2,1", "--cells-too", "--shard", shard, "--out",
+                   out(std::string(1, shard[0]) + ".pvs")})
+                  .code,
+              done);
+  ASSERT_EQ(run({"merge", out("0.pvs"), out("1.pvs"), "--out", out("all.pvs")}).code, done);
+  const auto asked = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"pvs", rooms, "--grid", "3,2,1", "--json", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const std::vector<std::string> show{"--show", "64,64,24",      "--obj",      out("now.obj"),
+                                      "--out",  out("now.JSON"), "--cells-too"};
+  const Outcome now = asked(show);
+  const Outcome saved = asked({"--table", out("all.pvs"), "--show", "64,64,24", "--obj", out("saved.obj"), "--out",
+                               out("saved.json"), "--certificates", out("proofs")});
+  ASSERT_EQ(now.code, done) << now;
+  ASSERT_EQ(saved.code, done) << saved;
+  for (const char* what : {"cells", "faces", "visible", "pairs_of_cells", "shown", "boxes"})
+    EXPECT_EQ(saved.json()["result"][what], now.json()["result"][what]) << what;
+  EXPECT_EQ(saved.json()["counters"]["searched"], 0);
+  EXPECT_EQ(bytes_of("saved.obj"), bytes_of("now.obj"));
+  EXPECT_EQ(bytes_of("saved.json"), bytes_of("now.JSON"));
+  EXPECT_EQ(Json::parse(bytes_of("saved.json"))["boxes"], now.json()["result"]["boxes"]);
+  EXPECT_EQ(run({"verify", rooms, out("proofs")}).code, done);
+  // What is none of this scene, with these options, or not whole.
+  const auto refused = [&](const std::string& table, const std::string& why) {
+    const Outcome r = asked({"--table", table});
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_NE(r.err.find(why), std::string::npos) << r;
+  };
+  refused(out("0.pvs"), "is a part of a table");
+  ASSERT_EQ(run({"pvs", rooms, "--out", out("other.pvs")}).code, done);
+  refused(out("other.pvs"), "is a table of");
+  EXPECT_EQ(asked({"--table", out("all.pvs"), "--resume", "--out", out("x.pvs")}).code, usage);
+  for (const char* cell : {"31,32", "-1", "x", ""})
+    EXPECT_EQ(asked({"--table", out("all.pvs"), "--show", cell}).code, usage);
+  // Of a part nobody would see in text that it is one.
+  for (const char* file : {"part.json", "part.csv", "part.CSV"})
+    EXPECT_EQ(run({"pvs", rooms, "--shard", "0/2", "--out", out(file)}).code, usage) << file;
+}
+
+TEST_F(Levels, parts_of_other_programs_are_not_put_together) {
+  for (const char* shard : {"0/2", "1/2"})
+    ASSERT_EQ(run({"pvs", rooms, "--shard", shard, "--out", out(std::string(1, shard[0]) + ".pvs")}).code, done);
+  std::string old = bytes_of("0.pvs");  // as the first version wrote it: without a sum
+  const std::size_t version = old.find("sightline 0.");
+  ASSERT_NE(version, std::string::npos);
+  old.replace(old.find("pvs 3"), 5, "pvs 1");
+  old[version + 10] = '9';
+  file("0.pvs", old.substr(0, old.size() - 8));
+  const Outcome r = run({"merge", out("0.pvs"), out("1.pvs"), "--out", out("all.pvs")});
+  EXPECT_EQ(r.code, bad_input) << r;
+  EXPECT_FALSE(std::filesystem::exists(path("all.pvs")));
 }
 
 TEST_F(Levels, entities_are_sealed_where_they_do_not_stand_in_something_solid) {
@@ -320,7 +414,15 @@ TEST_F(Levels, what_was_done_before_an_end_is_not_done_again) {
   EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
   EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
 
+  // What is whole is taken as it is.
+  const Outcome whole = run({"pvs", rooms, "--resume", "--out", out("again.pvs"), "--json", "-"});
+  ASSERT_EQ(whole.code, done) << whole;
+  EXPECT_EQ(whole.json()["result"]["blocks_kept"], 64);
+  EXPECT_EQ(whole.json()["counters"]["searched"], 0);
+  EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
+
   // One that is of other faces than its name says is asked again; what somebody else put there stays.
+  std::filesystem::remove(path("again.pvs"));
   std::filesystem::create_directories(path("again.pvs.parts"));
   ASSERT_EQ(run({"pvs", rooms, "--shard", "3/64", "--out", out("again.pvs.parts/5-of-64.pvs"), "--seed", "1"}).code,
             done);
@@ -435,6 +537,8 @@ TEST_F(Levels, certificates_that_are_there_are_not_made_again) {
   ASSERT_EQ(again(all), done);
   EXPECT_EQ(std::filesystem::last_write_time(path(name)), written);
   EXPECT_TRUE(kept().empty());
+  ASSERT_EQ(again(all), done);  // as the index says what was there
+  EXPECT_EQ(std::filesystem::last_write_time(path(name)), written);
   for (const auto& entry : std::filesystem::directory_iterator(path("proofs"))) {
     const std::string file = entry.path().filename().string();
     EXPECT_EQ(bytes_of("again/" + file), bytes_of("proofs/" + file)) << file;
@@ -512,6 +616,16 @@ TEST_F(Levels, certificates_of_all_cells_are_accepted_and_agree_with_the_table) 
   const Json index = Json::parse(bytes_of("proofs/index.json")), table = Json::parse(bytes_of("t.json"));
   ASSERT_EQ(index["cells"].size(), table["cells"].size());
   EXPECT_EQ(run({"verify", rooms, out("proofs"), "--sample", "2"}).code, done);
+  EXPECT_EQ(run({"verify", rooms, out("proofs"), "--sample", "0"}).code, usage);
+  // One alone is that of its cell, not only right.
+  const std::string cell = index["cells"][0]["cell"].dump(), other = index["cells"][1]["certificate"];
+  EXPECT_EQ(run({"verify", rooms, out("proofs"), "--cell", cell}).code, done);
+  EXPECT_EQ(run({"verify", rooms, out("proofs"), "--cell", "100000"}).code, usage);
+  const std::string own = "proofs/" + index["cells"][0]["certificate"].get<std::string>(), right = bytes_of(own);
+  file(own, bytes_of("proofs/" + other));
+  EXPECT_EQ(run({"verify", rooms, out("proofs/" + other)}).code, done);
+  EXPECT_EQ(run({"verify", rooms, out("proofs"), "--cell", cell}).code, disagreement);
+  file(own, right);
   // Of another scene none is.
   EXPECT_EQ(run({"verify", (corpus / "general" / "cube.off").string(), out("proofs")}).code, disagreement);
   EXPECT_EQ(run({"verify", rooms, rooms, "--sample", "2"}).code, usage);
@@ -850,6 +964,9 @@ TEST_F(Levels, shards_come_from_an_array_of_jobs) {
   setenv("SLURM_ARRAY_TASK_ID", "3", 1);
   setenv("SLURM_ARRAY_TASK_COUNT", "2", 1);
   setenv("SLURM_ARRAY_TASK_MIN", "2", 1);
+  EXPECT_EQ(run({"pvs", rooms, "--json", "-"}).code, usage);  // a part of an array, of unknown size
+  setenv("SLURM_ARRAY_TASK_ID", "1", 1);
+  setenv("SLURM_ARRAY_TASK_MIN", "0", 1);
   const Json part = run({"pvs", rooms, "--json", "-"}).json()["result"];
   for (const char* id : {"abc", "1.9", "4294967297", ""}) {
     setenv("SLURM_ARRAY_TASK_ID", id, 1);
