@@ -210,6 +210,7 @@ Visibility_table merged(const std::vector<Visibility_table>& parts, const std::v
     std::string again;
     for (std::size_t s = 0; s < shards && s < all.size(); ++s)
       if (!all[s]) again += (again.empty() ? "" : ", ") + std::to_string(s) + "/" + std::to_string(shards);
+    if (shards == 0) again = std::to_string(first) + "/N, of as many as there are";  // more than faces: one each
     throw Merge_error(std::string(what) + " " + std::to_string(first) + " and " + std::to_string(missing - 1) +
                       " more are in no part" +
                       (again.empty() ? "; run the shards that are missing" : "; run again --shard " + again));

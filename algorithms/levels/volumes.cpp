@@ -11,8 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <unordered_map>
@@ -23,9 +25,10 @@ namespace sightline {
 
 namespace levels_detail {
 
-/// A convex polyhedron, its planes with the inside behind them.
+/// A convex polyhedron, its planes with the inside behind them: a volume, or a part of one.
 struct Convex_volume {
-  std::string name;  // for messages: a face of it
+  std::string name;      // for messages: a face of it
+  std::uint32_t number;  // of the volume
   std::vector<Exact_plane> planes;
   std::vector<Exact_point> corners;  // sorted
   std::array<Exact_point, 2> box;
@@ -80,42 +83,90 @@ Polygon_soup of_faces(const Polygon_soup& soup, const std::vector<Face_id>& face
 /// `go_on` is called all the time, and may throw; so below.
 using Go_on = std::function<void()>;
 
-Convex_volume convex_volume(const Polygon_soup& soup, const std::vector<Face_id>& faces, const Go_on& go_on) {
-  const Scene scene(of_faces(soup, faces));
-  const auto name = [&](Face_id f) { return "face " + std::to_string(faces[f]); };
-  Convex_volume volume;
-  volume.name = name(0);
+/// A component of a soup, with the numbers of its faces there.
+struct Component {
+  std::uint32_t number;
+  const std::vector<Face_id>& faces;
+  Scene scene;
 
-  // 1. Its surface.
-  if (!closure(scene).closed)
-    throw std::invalid_argument(volume.name + " and what shares points with it do not close up; add the faces that " +
-                                "are missing, and turn the others so that all fronts look outwards, or all inwards");
-  for (const Piece& piece : scene.pieces()) {
-    volume.planes.push_back(scene.file_coefficients(piece.support));
-    for (const Piece_corner& corner : scene.corners(piece)) volume.corners.push_back(scene.position(corner.point));
-  }
-  std::sort(volume.corners.begin(), volume.corners.end());
-  volume.corners.erase(std::unique(volume.corners.begin(), volume.corners.end()), volume.corners.end());
+  std::string name(Face_id f) const { return "face " + std::to_string(faces[f]); }
+};
 
-  // 2. All of it on one side of each plane.
+std::vector<Exact_point> corners_of(const Scene& scene) {
+  std::vector<Exact_point> corners;
+  for (const Piece& piece : scene.pieces())
+    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+/// A closed polyhedron where it is convex: all of it is on one side of each plane, the same side.
+std::optional<Convex_volume> as_convex(const Component& of, const Go_on& go_on) {
+  Convex_volume volume{of.name(0), of.number, {}, corners_of(of.scene), {}};
   int inside = 0;  // the side that it is on
-  for (std::size_t i = 0; i < volume.planes.size(); ++i) {
+  for (const Piece& piece : of.scene.pieces()) {
     go_on();
-    const std::array<int, 2> sides = sides_to(volume.planes[i], volume.corners);
+    volume.planes.push_back(of.scene.file_coefficients(piece.support));
+    const std::array<int, 2> sides = sides_to(volume.planes.back(), volume.corners);
     const int side = sides[0] + sides[1];
-    if (side == 0 || (inside != 0 && side != inside))
-      throw std::invalid_argument(name(scene.pieces()[i].face) + " has corners of faces that share points with it on " +
-                                  "both sides, or on none: they are not convex; cut them into convex volumes, each " +
-                                  "with points of its own");
+    if (side == 0 || (inside != 0 && side != inside)) return std::nullopt;
     inside = side;
   }
   if (inside == 0) throw std::invalid_argument(volume.name + " has no area; leave it out");
   if (inside > 0)
     for (Exact_plane& h : volume.planes)
       for (Rational& x : h) x = -x;
-
   volume.box = exact_box(volume.corners);
   return volume;
+}
+
+/// Any other one, as the cells of its own faces that it winds about: all as often, or it goes through itself.
+std::vector<Convex_volume> in_convex_parts(const Component& of, const Polygon_soup& soup, const Go_on& go_on) {
+  Cell_options options;
+  options.threads = 1;
+  options.progress = [&](std::size_t, std::size_t) { go_on(); };
+  const Level_cells cells(soup, options);
+  std::vector<Convex_volume> parts;
+  int winding = 0;
+  for (Cell_id c = 0; c < cells.cells().size(); ++c) {
+    const Level_cell& cell = cells.cells()[c];
+    if (cell.winding == 0) continue;
+    if (winding != 0 && cell.winding != winding)
+      throw std::invalid_argument(of.name(0) + " and what shares points with it go through each other; cut them into " +
+                                  "volumes that do not, each with points of its own");
+    winding = cell.winding;
+    Convex_volume& part = parts.emplace_back(Convex_volume{of.name(0), of.number, {}, {}, {}});
+    for (const std::uint32_t w : cell.walls) {
+      const std::vector<Exact_point> polygon = cells.polygon(cells.walls()[w].corners);
+      part.planes.push_back(exact_plane(polygon));
+      if (cells.walls()[w].front == c)  // its polygon looks into the cell
+        for (Rational& x : part.planes.back()) x = -x;
+      part.corners.insert(part.corners.end(), polygon.begin(), polygon.end());
+    }
+    std::sort(part.corners.begin(), part.corners.end());
+    part.corners.erase(std::unique(part.corners.begin(), part.corners.end()), part.corners.end());
+    part.box = exact_box(part.corners);
+  }
+  if (parts.empty())
+    throw std::invalid_argument(of.name(0) + " and what shares points with it have no inside; leave them out");
+  return parts;
+}
+
+/// The convex parts of a component; and, for the level's grid, the corners that their planes are through.
+std::vector<Convex_volume> parts_of(const Polygon_soup& soup, const std::vector<Face_id>& faces, std::uint32_t number,
+                                    std::vector<Exact_point>& corners, const Go_on& go_on) {
+  const Polygon_soup own = of_faces(soup, faces);
+  const Component component{number, faces, Scene(own)};
+  if (!closure(component.scene).closed)
+    throw std::invalid_argument(component.name(0) + " and what shares points with it do not close up; add the faces " +
+                                "that are missing, and turn the others so that all fronts look outwards, or all " +
+                                "inwards");
+  std::optional<Convex_volume> whole = as_convex(component, go_on);
+  const std::vector<Exact_point> through = corners_of(component.scene);
+  corners.insert(corners.end(), through.begin(), through.end());
+  if (whole) return {*std::move(whole)};
+  return in_convex_parts(component, own, go_on);
 }
 
 /// Whether two convex polyhedra have no point inside in common.
@@ -140,6 +191,7 @@ void check_apart(const std::vector<Convex_volume>& volumes, const Go_on& go_on) 
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const Convex_volume &a = volumes[order[i]], &b = volumes[order[j]];
       if (b.box[0][0] >= a.box[1][0]) break;
+      if (a.number == b.number) continue;
       go_on();
       if (!are_apart(a, b))
         throw std::invalid_argument(volumes[std::min(order[i], order[j])].name + " and " +
@@ -148,10 +200,10 @@ void check_apart(const std::vector<Convex_volume>& volumes, const Go_on& go_on) 
     }
 }
 
-/// Divides space by planes of volumes until no more is left than one, or none.
+/// Divides space by planes of volumes' parts until no more is left than one, or none.
 class Volume_divider {
  public:
-  explicit Volume_divider(const std::vector<Convex_volume>& volumes) : volumes_(volumes) {
+  Volume_divider(const std::vector<Convex_volume>& volumes, std::uint32_t count) : volumes_(volumes), count_(count) {
     std::map<Exact_plane, std::uint32_t> ids;
     for (const Convex_volume& volume : volumes_) {
       std::vector<std::uint32_t>& own = own_.emplace_back();
@@ -198,17 +250,17 @@ class Volume_divider {
   }
 
  private:
-  /// A volume that may have a part here, and those of its planes that are none of the nodes above.
+  /// What may be here of the parts of volumes, and those of its planes that are none of the nodes above.
   struct Left {
-    std::uint32_t volume;
+    std::uint32_t volume;  // a place of these
     std::vector<std::uint32_t> planes;
   };
 
   /// The number of the node to come; or below 0 a leaf, where nothing is left, or one volume is all.
   std::int32_t made_of(const std::vector<Left>& left) const {
-    if (left.empty()) return -1 - static_cast<std::int32_t>(volumes_.size());
+    if (left.empty()) return -1 - static_cast<std::int32_t>(count_);
     for (const Left& one : left)
-      if (one.planes.empty()) return -1 - static_cast<std::int32_t>(one.volume);
+      if (one.planes.empty()) return -1 - static_cast<std::int32_t>(volumes_[one.volume].number);
     return static_cast<std::int32_t>(tree_.nodes.size());
   }
 
@@ -246,6 +298,7 @@ class Volume_divider {
   }
 
   const std::vector<Convex_volume>& volumes_;
+  std::uint32_t count_;
   std::vector<Exact_plane> planes_;
   std::vector<std::vector<std::uint32_t>> own_;  // by volume
   std::unordered_map<std::uint64_t, std::array<bool, 2>> reaches_;
@@ -254,20 +307,24 @@ class Volume_divider {
 
 }  // namespace levels_detail
 
-Volume_division convex_volumes(const Polygon_soup& soup,
-                               const std::function<void(std::size_t, std::size_t)>& progress) {
-  std::vector<levels_detail::Convex_volume> volumes;
-  const std::vector<std::vector<Face_id>> components = levels_detail::components_of(soup);
-  const levels_detail::Go_on go_on = [&] {
-    if (progress) progress(volumes.size(), components.size() + 1);  // then they are held to each other, and divided
+Volume_division volume_division(const Polygon_soup& soup,
+                                const std::function<void(std::size_t, std::size_t)>& progress) {
+  using namespace levels_detail;
+  Volume_division division;
+  std::vector<Convex_volume> parts;
+  const std::vector<std::vector<Face_id>> components = components_of(soup);
+  const Go_on go_on = [&] {  // when all are known they are held to each other, and divided
+    if (progress) progress(division.volumes, components.size() + 1);
   };
-  for (const std::vector<Face_id>& faces : components)
-    volumes.push_back(levels_detail::convex_volume(soup, faces, go_on));
-  levels_detail::check_apart(volumes, go_on);
-  Volume_division division{levels_detail::Volume_divider(volumes).divided(go_on),
-                           static_cast<std::uint32_t>(volumes.size())};
-  for (const levels_detail::Convex_volume& volume : volumes)
-    division.tree.corners.insert(division.tree.corners.end(), volume.corners.begin(), volume.corners.end());
+  std::vector<Exact_point> corners;
+  for (const std::vector<Face_id>& faces : components) {
+    std::vector<Convex_volume> more = parts_of(soup, faces, division.volumes, corners, go_on);
+    std::move(more.begin(), more.end(), std::back_inserter(parts));
+    ++division.volumes;
+  }
+  check_apart(parts, go_on);
+  division.tree = Volume_divider(parts, division.volumes).divided(go_on);
+  division.tree.corners = std::move(corners);
   return division;
 }
 

@@ -125,11 +125,16 @@ std::string Covered::text() const {
 }
 
 Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Workers& workers,
-                       const Exact_point* eye, const std::vector<bool>& known, Numbered_polygons* numbered) {
+                       const Exact_point* eye, const std::vector<bool>& known, Numbered_polygons* numbered,
+                       const Covering_places* places) {
   constexpr std::size_t faces_worth_a_thread = 100, points_worth_a_thread = 1000;
   const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {
     return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0;
   };
+  const auto fragment_name = [&](std::size_t i) {
+    return name("fragment", places == nullptr ? i : places->fragments[i]);
+  };
+  const auto piece_name = [&](std::size_t i) { return name("piece", places == nullptr ? i : places->pieces[i]); };
   // 1. Everything refers to something, once, and is a number.
   const auto in_scene = [&](const std::string& what, Face_id face) {
     if (face >= soup.face_count())
@@ -147,8 +152,8 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
   std::vector<std::map<std::uint32_t, std::size_t>> pieces(soup.face_count());  // by number, their places
   for (std::size_t i = 0; i < covering.pieces.size(); ++i) {
     const auto& piece = covering.pieces[i];
-    in_scene(name("piece", i), piece.face);
-    if (!canonical(piece.vertices)) reject(name("piece", i) + " has a vertex that is not in canonical numbers");
+    in_scene(piece_name(i), piece.face);
+    if (!canonical(piece.vertices)) reject(piece_name(i) + " has a vertex that is not in canonical numbers");
     if (set_aside.count(piece.face)) reject(name("face", piece.face) + " is set aside but has pieces");
     if (!pieces[piece.face].emplace(piece.piece, i).second)
       reject(name("face", piece.face) + " has " + name("piece", piece.piece) + " twice");
@@ -167,16 +172,16 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
       soup.face_count());  // by face, then by piece where it has such
   for (std::size_t i = 0; i < covering.fragments.size(); ++i) {
     const Order_fragment& fragment = covering.fragments[i];
-    in_scene(name("fragment", i), fragment.face);
+    in_scene(fragment_name(i), fragment.face);
     if (!std::all_of(corners[i].begin(), corners[i].end(),
                      [&](Numbered_points::Number p) { return in_canonical_numbers[p] != 0; }))
-      reject(name("fragment", i) + " has a vertex that is not in canonical numbers", {i});
+      reject(fragment_name(i) + " has a vertex that is not in canonical numbers", {i});
     if (set_aside.count(fragment.face)) reject(name("face", fragment.face) + " is set aside but drawn", {i});
     const auto& own = pieces[fragment.face];
     if (!own.empty() && !own.count(fragment.piece))
-      reject(name("fragment", i) + " is of a piece that its face does not have", {i});
+      reject(fragment_name(i) + " is of a piece that its face does not have", {i});
     tiles[fragment.face][own.empty() ? 0 : fragment.piece].push_back(
-        {&fragment.vertices, name("fragment", i), {i}, corners[i]});
+        {&fragment.vertices, fragment_name(i), {i}, corners[i]});
   }
 
   // 2. Nothing is lost and nothing is drawn twice.

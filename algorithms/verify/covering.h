@@ -50,13 +50,18 @@ struct Covered {
   std::string text() const;                   ///< "0 faces set aside, 0 not planar"
 };
 
+/// Where fragments and pieces are in the lists that they are taken from, by which a verdict's text names them.
+struct Covering_places {
+  std::vector<std::size_t> fragments, pieces;
+};
+
 /// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
 /// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Faces that are
-/// `known` to be tiled need no fragments. Post: the corners of the fragments are in `numbered`. Pre: nothing is.
-/// Proof: P-21, P-22
+/// `known` to be tiled need no fragments. With `places` text names these; the verdict's numbers are of the covering's
+/// own list. Post: the corners of the fragments are in `numbered`. Pre: nothing is. Proof: P-21, P-22
 Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Workers& workers,
                        const Exact_point* eye = nullptr, const std::vector<bool>& known = {},
-                       Numbered_polygons* numbered = nullptr);
+                       Numbered_polygons* numbered = nullptr, const Covering_places* places = nullptr);
 
 }  // namespace certificate_check
 

@@ -171,8 +171,13 @@ class Solid_check {
       for (const Solid_certificate::Part& part : claim_.fragments[i].parts) parts[part.operand].emplace_back(i, &part);
     for (std::uint32_t operand = 0; operand < operands_.size(); ++operand) {
       Covering covering;
-      for (const auto& piece : claim_.pieces)
-        if (piece.operand == operand) covering.pieces.push_back({piece.face, piece.piece, piece.vertices});
+      Covering_places of;  // in the certificate
+      for (std::size_t i = 0; i < claim_.pieces.size(); ++i) {
+        const auto& piece = claim_.pieces[i];
+        if (piece.operand != operand) continue;
+        covering.pieces.push_back({piece.face, piece.piece, piece.vertices});
+        of.pieces.push_back(i);
+      }
       for (const auto& entry : claim_.set_aside) {
         if (entry.operand != operand) continue;
         if (!entry.why.starts_with("zero area"))
@@ -181,19 +186,18 @@ class Solid_check {
         covering.set_aside.push_back({entry.face, entry.why});
       }
       const std::vector<bool> whole = whole_triangles(operand, parts[operand], covering);
-      std::vector<std::size_t> of;
       for (const auto& [i, part] : parts[operand]) {
         if (part->face < whole.size() && whole[part->face]) continue;
         covering.fragments.push_back({part->face, part->piece, claim_.fragments[i].vertices});
         if (part->turned)
           std::reverse(covering.fragments.back().vertices.begin(), covering.fragments.back().vertices.end());
-        of.push_back(i);
+        of.fragments.push_back(i);
       }
       try {
-        check_covering(operands_[operand], covering, workers_, nullptr, whole);
+        check_covering(operands_[operand], covering, workers_, nullptr, whole, nullptr, &of);
       } catch (Rejection& rejection) {
         rejection.verdict.why = "solid " + std::to_string(operand) + ": " + rejection.verdict.why;
-        for (std::size_t& i : rejection.verdict.fragments) i = of[i];
+        for (std::size_t& i : rejection.verdict.fragments) i = of.fragments[i];
         throw;
       }
       const Numbered_chain boundary = boundary_of(operand, parts[operand], covering);

@@ -305,7 +305,10 @@ void add_report(Command program) {
                   "seconds for all; 0: no limit. What is not reached is in no row, and the exit code is 4")
       .check(not_negative() & finite_number())
       .show_default();
-  command.add_option("--shard", a->shard, "I/N: every N-th row from the I-th, for another machine or process");
+  command.add_option(
+      "--shard", a->shard,
+      "I/N: every N-th row from the I-th, for another machine or process; by default what SLURM_ARRAY_TASK_ID and "
+      "_COUNT say");
   command.add_flag("--resume", a->resume, "keep rows beside --json while they are made, and do not ask again for them");
   command.add_option("--merge", a->parts, "ask nothing: make one report of what all shards wrote with --json")
       .reads_file();

@@ -33,9 +33,10 @@ std::vector<Option> Division_arguments::add_to(Command command) {
           .check(not_empty());
   const Option by_volumes =
       command
-          .add_option("--volumes", volumes,
-                      "cells within volumes, rooms say: a file of convex closed polyhedra that do not overlap, each a "
-                      "connected component, with points of its own; by first faces they are volume 0, 1, ...")
+          .add_option(
+              "--volumes", volumes,
+              "cells within volumes, rooms say: a file of closed polyhedra that do not overlap, each a connected "
+              "component, with points of its own; by first faces they are volume 0, 1, ...")
           .reads_file()
           .check(not_empty());
   const Option by_regions =
@@ -94,7 +95,7 @@ Division Division_arguments::division(const Common& common, const Polygon_soup& 
     division.kind = Division::Kind::volumes;
     try {
       Progress progress("dividing");
-      Volume_division found = convex_volumes(read, common.within_budget(progress));
+      Volume_division found = volume_division(read, common.within_budget(progress));
       division.tree = std::move(found.tree);
       division.volumes = found.volumes;
       if (division.volumes == 0) throw std::invalid_argument("has no face, and so no volume");

@@ -149,7 +149,8 @@ std::string flaw_of_run(const Piece_view& view, const Rational& t) {
 }
 
 /// What is wrong with the causes that are found where three lines of a piece's view look concurrent, as if what is seen
-/// rested on them: edges are named of such as one ray meets, also where these lines go on beyond their own.
+/// rested on them: edges are named of such as one ray meets, also where these lines go on beyond their own; and if one
+/// meets three, some are.
 std::string flaw_of_causes(const Scene& scene, const Occluders& occluders, const Exact_point& from,
                            const Exact_point& to, const std::vector<Rational>& moments, Random& random) {
   constexpr int tries = 12;
@@ -169,6 +170,15 @@ std::string flaw_of_causes(const Scene& scene, const Occluders& occluders, const
     for (const Quadratic_root& t : roots) {
       if (view.side_of_eye(t) <= 0) continue;
       const Along_cause cause = cause_of(view, t, std::span(&lines, 1));
+      const auto is_missed = [&](std::size_t i) {
+        const std::array<std::uint32_t, 2> pair{lines[i], lines[(i + 1) % 3]};
+        if (std::max(pair[0], pair[1]) >= along.lines().size()) return false;  // of the piece's plane, without edges
+        return meets_three(scene, from, to, t, piece, {along.edges(pair[0])[0], along.edges(pair[1])[0]});
+      };
+      if (cause.kind == Along_kind::triple && cause.edges.empty() && (is_missed(0) || is_missed(1) || is_missed(2)))
+        return "of piece " + std::to_string(piece) + " by lines " + std::to_string(lines[0]) + ' ' +
+               std::to_string(lines[1]) + ' ' + std::to_string(lines[2]) + " near t = " + std::to_string(t.near()) +
+               " edges that one ray meets are not named";
       if (cause.edges.empty()) continue;  // no ray meets three
       const std::string flaw = flaw_of_change(
           scene, from, to, t, {scene.pieces()[piece].face, false, false, false, cause.kind, cause.edges});

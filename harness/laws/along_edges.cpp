@@ -87,11 +87,10 @@ bool meets(const Surds& eye, const Surds& ray, const Edge& edge, std::array<Surd
 }
 
 /// Whether a ray goes to a closed piece, past its edges or within them, and meets the edges before it.
-bool is_event_ray(const Scene& scene, const Surds& eye, const Surds& ray, const Corners& face,
-                  const std::vector<Edge>& edges) {
+bool reaches(const Surds& eye, const Surds& ray, const Corners& face, const std::vector<Edge>& edges) {
   const Plane plane = plane_of(face);
-  const Surd height = plane.height(eye), towards = dot(surds(plane.normal), ray);
-  const int side = height.sign();
+  const Surd towards = dot(surds(plane.normal), ray);
+  const int side = plane.height(eye).sign();
   if (side * towards.sign() >= 0) return false;
   for (std::size_t i = 0; i < face.size(); ++i) {
     const Surds n = cross(minus(surds(face[i]), eye), minus(surds(face[(i + 1) % face.size()]), eye));
@@ -103,7 +102,15 @@ bool is_event_ray(const Scene& scene, const Surds& eye, const Surds& ray, const 
     const Surd at = weights[0] * Surd(plane.height(edge[0])) + weights[1] * Surd(plane.height(edge[1]));
     if (side * at.sign() < 0) return false;
   }
-  // Planes of other faces that hold its end.
+  return true;
+}
+
+/// Whether it does so, and its end is in so many planes of other faces as there are less than three edges.
+bool is_event_ray(const Scene& scene, const Surds& eye, const Surds& ray, const Corners& face,
+                  const std::vector<Edge>& edges) {
+  if (!reaches(eye, ray, face, edges)) return false;
+  const Plane plane = plane_of(face);
+  const Surd height = plane.height(eye), towards = dot(surds(plane.normal), ray);
   std::set<std::uint32_t> planes;
   for (const Piece& piece : scene.pieces()) {
     const Plane other = plane_of(corners_of(scene, piece));
@@ -128,6 +135,24 @@ bool look_concurrent(const Exact_point& eye, const std::vector<Edge>& edges) {
   return dot(normal(edges[0]), cross(normal(edges[1]), normal(edges[2]))) == 0;
 }
 
+/// Whether it does so at four moments of its way, and so all along.
+bool always_look_concurrent(const Exact_point& from, const Exact_point& way, const std::vector<Edge>& edges) {
+  bool always = true;
+  for (const long n : {0, 1, 2, 3}) {
+    Exact_point p;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = from[k] + Rational(n, 3) * way[k];
+    always &= look_concurrent(p, edges);
+  }
+  return always;
+}
+
+Surds eye_at(const Exact_point& from, const Exact_point& way, const Quadratic_root& t) {
+  const Surd at = surd(t);
+  Surds eye;
+  for (std::size_t k = 0; k < 3; ++k) eye[k] = Surd(from[k]) + at * Surd(way[k]);
+  return eye;
+}
+
 bool is_on(const Corners& polygon, const Exact_point& p) {
   const Plane plane = plane_of(polygon);
   if (plane.height(p) != 0) return false;
@@ -143,10 +168,8 @@ bool is_on(const Corners& polygon, const Exact_point& p) {
 std::string flaw_of_change(const Scene& scene, const Exact_point& from, const Exact_point& to, const Quadratic_root& t,
                            const Along_event::Change& change) {
   using namespace moving_edges;
-  const Surd at = surd(t);
   const Exact_point way = minus(to, from);
-  Surds eye;
-  for (std::size_t k = 0; k < 3; ++k) eye[k] = Surd(from[k]) + at * Surd(way[k]);
+  const Surds eye = eye_at(from, way, t);
   std::vector<Corners> pieces;
   for (const Piece& piece : scene.pieces())
     if (piece.face == change.face) pieces.push_back(corners_of(scene, piece));
@@ -182,15 +205,8 @@ std::string flaw_of_change(const Scene& scene, const Exact_point& from, const Ex
     }
   if (in_a_plane ? change.kind == Along_kind::triple : edges.size() == 3 && change.kind != Along_kind::triple)
     return in_a_plane ? "two edges of a triple are in a plane" : "no two edges of edge and vertex are in a plane";
-  if (edges.size() == 3) {
-    bool always = true;
-    for (const long n : {0, 1, 2, 3}) {
-      Exact_point p;
-      for (std::size_t k = 0; k < 3; ++k) p[k] = from[k] + Rational(n, 3) * way[k];
-      always &= look_concurrent(p, edges);
-    }
-    if (always) return "edges are named that look concurrent all along";
-  }
+  if (edges.size() == 3 && always_look_concurrent(from, way, edges))
+    return "edges are named that look concurrent all along";
   // 3. One ray to all of them, if any: through an end, or where two look crossed, or one and a side of the face; or
   // where the planes of other faces meet the face's, if edges are missing.
   for (const Corners& face : pieces) {
@@ -227,6 +243,48 @@ std::string flaw_of_change(const Scene& scene, const Exact_point& from, const Ex
       return "";
   }
   return "no ray of the eye to the face meets all " + std::to_string(edges.size()) + " edges that an event names";
+}
+
+bool meets_three(const Scene& scene, const Exact_point& from, const Exact_point& to, const Quadratic_root& t,
+                 std::uint32_t piece, const std::array<std::array<std::uint32_t, 2>, 2>& crossed) {
+  using namespace moving_edges;
+  const Exact_point way = minus(to, from);
+  const Surds eye = eye_at(from, way, t);
+  const Corners face = corners_of(scene, scene.pieces()[piece]);
+  const auto normal_of = [&](const Edge& edge) {
+    return cross(minus(surds(edge[0]), eye), minus(surds(edge[1]), eye));
+  };
+  std::array<Surds, 2> planes;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Corners corners = corners_of(scene, scene.pieces()[crossed[k][0]]);
+    planes[k] = normal_of({corners[crossed[k][1]], corners[(crossed[k][1] + 1) % corners.size()]});
+  }
+  const Surds line = cross(planes[0], planes[1]);
+  if (is_zero(line)) return false;
+  for (const Surds& ray : {line, turned(line)}) {
+    // 1. The edges that it meets: of each line one, but of those whose plane holds the way, or that it goes along.
+    std::vector<Edge> met;
+    for (const Piece& other : scene.pieces()) {
+      const Corners corners = corners_of(scene, other);
+      const Plane plane = plane_of(corners);
+      if (plane.height(from) == 0 && plane.height(to) == 0) continue;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Edge edge{corners[i], corners[(i + 1) % corners.size()]};
+        if (!is_zero(normal_of(edge)) && reaches(eye, ray, face, {edge}) &&
+            std::none_of(met.begin(), met.end(), [&](const Edge& known) { return are_on_a_line(known, edge); }))
+          met.push_back(edge);
+      }
+    }
+    // 2. Three of them that are not seen as one, and through one point at that moment only.
+    for (std::size_t i = 0; i < met.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        for (std::size_t k = 0; k < j; ++k) {
+          const Surds normal = normal_of(met[i]);
+          if (is_zero(cross(normal, normal_of(met[j]))) && is_zero(cross(normal, normal_of(met[k])))) continue;
+          if (!always_look_concurrent(from, way, {met[i], met[j], met[k]})) return true;
+        }
+  }
+  return false;
 }
 
 }  // namespace sightline::harness

@@ -6,6 +6,8 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 namespace sightline::harness {
@@ -17,5 +19,11 @@ namespace sightline::harness {
 /// as are missing. Exact: yes
 std::string flaw_of_change(const Scene& scene, const Exact_point& from, const Exact_point& to, const Quadratic_root& t,
                            const Along_event::Change& change);
+
+/// Whether the ray in which the eye sees the lines of two edges cross, each a piece and a corner, goes to a closed
+/// piece and meets edges of three lines, closed, before it or on it, which are not concurrent for all t, and not all
+/// seen as one. Edges of pieces whose plane holds the path, or that point at the eye, are none. Exact: yes
+bool meets_three(const Scene& scene, const Exact_point& from, const Exact_point& to, const Quadratic_root& t,
+                 std::uint32_t piece, const std::array<std::array<std::uint32_t, 2>, 2>& crossed);
 
 }  // namespace sightline::harness

@@ -72,21 +72,43 @@ void add_volume(Polygon_soup& volumes, const Polygon_soup& polyhedron, bool is_t
   }
 }
 
-/// Cells of another tree as volumes: those of a level name the one that holds them, and fill it.
+/// A cell that is not taken yet, and as a rule some beside it, so that the whole is convex or bent: what hangs together
+/// by points, and of three at most, so that there is no hollow in it.
+std::vector<Cell_id> some_neighbours(const Level_cells& level, Cell_id first, std::vector<char>& is_taken,
+                                     Random& random) {
+  std::vector<Cell_id> cells{first};
+  is_taken[first] = 1;
+  for (std::uint64_t more = random.below(3); more > 0; --more) {
+    const Level_cell& last = level.cells()[cells[random.below(cells.size())]];
+    const Cell_wall& wall = level.walls()[last.walls[random.below(last.walls.size())]];
+    for (const Cell_id beside : {wall.front, wall.behind})
+      if (beside != no_cell && is_taken[beside] == 0) {
+        cells.push_back(beside);
+        is_taken[beside] = 1;
+        break;
+      }
+  }
+  return cells;
+}
+
+/// Cells of another tree, and some together, as volumes: those of a level name the one that holds them, and fill it.
 Outcome cells_as_volumes(const Posed_scene& posed, Random& random) {
   Cell_options options;
   options.tree = any_tree(posed.soup, random);
   for (Point_id p = 0; p < posed.soup.point_count(); ++p) options.tree.corners.push_back(posed.soup.point(p));
   const Level_cells other(random.chance(1, 2) ? posed.soup : Polygon_soup{}, options);
   Polygon_soup volumes;
-  std::vector<Polygon_soup> given;
+  std::vector<std::vector<Polygon_soup>> given;  // of each the cells
+  std::vector<char> is_taken(other.cells().size(), 0);
   for (Cell_id c = 0; c < other.cells().size() && given.size() < 12; ++c) {
-    if (random.chance(1, 2)) continue;
-    given.push_back(polyhedron(other, {c}));
+    if (random.chance(1, 2) || is_taken[c] != 0) continue;
+    const std::vector<Cell_id> cells = some_neighbours(other, c, is_taken, random);
+    std::vector<Polygon_soup>& parts = given.emplace_back();
+    for (const Cell_id cell : cells) parts.push_back(polyhedron(other, {cell}));
     const bool is_turned = random.chance(1, 3);
-    add_volume(volumes, given.back(), is_turned, random);
+    add_volume(volumes, polyhedron(other, cells), is_turned, random);
   }
-  const Volume_division division = convex_volumes(volumes);
+  const Volume_division division = volume_division(volumes);
   if (division.volumes != given.size()) return Outcome::failed("volumes are not as many as were given");
   options.tree = division.tree;
   const Level_cells level(posed.soup, options);
@@ -95,16 +117,21 @@ Outcome cells_as_volumes(const Posed_scene& posed, Random& random) {
     const Exact_point p = level.inside(c);
     std::size_t expected = 0;
     for (; expected < given.size(); ++expected) {
-      bool holds = true;
-      for (Face_id f = 0; f < given[expected].face_count() && holds; ++f)
-        holds = Flat_face(points_of_loop(given[expected], f)).height(p) < 0;
-      if (holds) break;
+      // On the border of a part it is between two of the volume: cells go through no side of that.
+      const auto holds = [&](const Polygon_soup& part) {
+        for (Face_id f = 0; f < part.face_count(); ++f)
+          if (Flat_face(points_of_loop(part, f)).height(p) > 0) return false;
+        return true;
+      };
+      if (std::any_of(given[expected].begin(), given[expected].end(), holds)) break;
     }
     if (level.cells()[c].leaf != expected) return Outcome::failed(cell_name(c) + " is in another volume than it names");
     if (expected < given.size()) filled[expected] += six_volumes(polyhedron(level, {c}));
   }
-  for (std::size_t v = 0; v < given.size(); ++v)
-    if (filled[v] != six_volumes(given[v])) return Outcome::failed("cells do not fill volume " + std::to_string(v));
+  for (std::size_t v = 0; v < given.size(); ++v) {
+    for (const Polygon_soup& part : given[v]) filled[v] -= six_volumes(part);
+    if (filled[v] != 0) return Outcome::failed("cells do not fill volume " + std::to_string(v));
+  }
   return {};
 }
 
@@ -147,7 +174,7 @@ Outcome boxes_as_volumes(const Posed_scene& posed, Random& random) {
     const bool is_turned = random.chance(1, 3);
     add_volume(volumes, generate::soup_of(generate::box(own[0], own[1])), is_turned, random);
   }
-  division.tree = convex_volumes(volumes).tree;
+  division.tree = volume_division(volumes).tree;
   const Level_cells rooms(posed.soup, division);
 
   // 2. What they see.

@@ -68,7 +68,7 @@ Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, cons
     if (!counts.empty()) options.tree = even_boxes(model.soup(), {counts.at(0), counts.at(1), counts.at(2)});
     Volume_division division;
     if (rooms) {
-      division = convex_volumes(rooms->soup(), progress_within_budget(asking));
+      division = volume_division(rooms->soup(), progress_within_budget(asking));
       options.tree = std::move(division.tree);
     }
     return Level{std::make_shared<const Level_cells>(model.soup(), options), division.volumes};

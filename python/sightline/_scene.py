@@ -380,7 +380,7 @@ class Scene:
         """The convex cells that the faces' planes divide space into, the walls between them, what is solid, and leaks.
 
         grid: (nx, ny, nz), even boxes that cells lie within, along each axis of the box about the scene. volumes: the
-        same for given rooms, the convex closed polyhedra of a scene, each with points of its own. leaves: of a compiled
+        same for given rooms, the closed polyhedra of a scene, each with points of its own. leaves: of a compiled
         level that was read (.bsp), cells lie within its own. candidates: planes tried for each node of the tree, by the
         seed's choice.
 

@@ -8,6 +8,7 @@
 #include <sightline/algorithms/weak_visibility/edge_lines.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/search/cell_cuts.h>
 #include <sightline/algorithms/weak_visibility/search/cell_proofs.h>
 #include <sightline/algorithms/weak_visibility/search/line_cell.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
@@ -54,6 +55,7 @@ class Cells_of_lines {
     ++asked;
     std::vector<Multiplier> proof;
     proofs_.relax(cell, counters);
+    try_shaves(cell);
     bool is_proved = proofs_.by_relaxation(cell, proof, counters) == Cell_proofs::Relaxation::empty ||
                      proofs_.by_exact_relaxation(cell, proof, counters) || proofs_.at_corner(cell, proof, counters);
     for (const bool of_source : {true, false})
@@ -92,6 +94,30 @@ class Cells_of_lines {
   std::size_t asked = 0;  ///< cells that have a line
 
  private:
+  /// What is shaved off, if anything is, leaves less than four fifths of the polygons, by their heights; planes are
+  /// rounded to a thousandth or two.
+  void try_shaves(const Line_cell& cell) {
+    constexpr double most_kept = 0.8, rounding = 0.02;
+    const std::vector<Cell_cut> cuts = shaves(cell, proofs_.game(), occluders_->frame(), counters);
+    double kept = 1;
+    for (const Cell_cut& cut : cuts) {
+      const auto height = [&](const std::array<Integer, 4>& p) {
+        Rational sum = 0;
+        for (std::size_t k = 0; k < 4; ++k) sum += Rational(cut.plane.exact[k] * p[k]);
+        return Rational(sum / p[3]);
+      };
+      const Near_polygon& polygon = cut.source ? domain_.source : domain_.target;
+      Rational low = height(polygon[0].exact), high = low;
+      for (const Near_point& p : polygon) {
+        low = std::min(low, height(p.exact));
+        high = std::max(high, height(p.exact));
+      }
+      require(low < 0 && high > 0, "a shave is across its polygon");
+      kept *= nearest_double(Rational(high / (high - low)));
+    }
+    require(cuts.empty() || kept < most_kept + rounding, "shaves leave less than four fifths");
+  }
+
   /// A point inside a polygon, by weights that are often of very different sizes.
   static std::array<Integer, 4> inner(const Near_polygon& polygon, generate::Random& random) {
     const std::uint64_t unequal = random.chance(1, 2) ? 1 : 40;

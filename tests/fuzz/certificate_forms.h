@@ -5,8 +5,13 @@
 #include "other_readers.h"
 #include "support.h"
 
+#include <nlohmann/json.hpp>
+
 #include <array>
+#include <cstddef>
 #include <list>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -211,6 +216,34 @@ inline const std::vector<Formed_certificate>& formed_solid_certificates() {
   return all;
 }
 
+/// A certificate in which one value, however deep, is nothing: where that is refused, it is told in which entry.
+inline void require_named_entry(const std::string& text, Bytes& from) {
+  nlohmann::json whole = nlohmann::json::parse(text, nullptr, false);
+  if (!whole.is_object()) return;
+  std::vector<std::string> lists;
+  for (const auto& [key, value] : whole.items())
+    if (value.is_array() && !value.empty()) lists.push_back(key);
+  if (lists.empty()) return;
+  const std::string& key = lists[from.below(lists.size())];
+  const std::size_t number = from.below(whole[key].size());
+  nlohmann::json* place = &whole[key][number];
+  while (place->is_structured() && !place->empty()) {
+    auto next = place->begin();
+    for (std::size_t k = from.below(place->size()); k > 0; --k) ++next;
+    place = &*next;
+  }
+  *place = nullptr;
+  std::istringstream in{whole.dump()};
+  try {
+    sightline::read_certificate(in);
+  } catch (const std::invalid_argument& error) {
+    const std::string_view why = error.what();
+    const std::string entry = key + '[' + std::to_string(number) + ']';
+    if (why.find(entry) == std::string_view::npos && why.find(key + ": ") == std::string_view::npos)  // or as a whole
+      throw Finding("what is wrong is not told to be in " + entry + ": " + std::string(why));
+  }
+}
+
 /// One of them, with blanks between its tokens or without.
 inline void certificate_forms(std::string_view bytes) {
   Bytes from(bytes);
@@ -238,6 +271,7 @@ inline void certificate_forms(std::string_view bytes) {
     throw Finding((is_right ? "a form that is right is refused: " : "a form that is wrong is taken: ") + text);
   if (is_of_solids) read_solid_certificate(text);
   else read_certificate(text);
+  if (is_right && !is_of_solids) require_named_entry(text, from);
 }
 
 }  // namespace fuzz

@@ -1,7 +1,7 @@
 #pragma once
 // What doubles say for certain though nothing exact is asked after them: which pieces are near a shaft, where lines
-// may meet a chart's plane, where polygons of any size are halved, and the pixels of an image whose directions are
-// nearly in a plane.
+// may meet a chart's plane, where polygons of any size are halved, lines from beside what is near, and the pixels of an
+// image whose directions are nearly in a plane.
 
 #include "soups.h"
 #include "support.h"
@@ -16,6 +16,7 @@
 #include <sightline/algorithms/weak_visibility/partition/plane_chart.h>
 #include <sightline/algorithms/weak_visibility/search/cell_cuts.h>
 #include <sightline/algorithms/weak_visibility/search/line_cell.h>
+#include <sightline/algorithms/weak_visibility/search/near_lines.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
@@ -29,6 +30,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -103,6 +105,78 @@ inline void try_near_shaft(generate::Random& random) {
   for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
     require(scene.pieces()[piece].face == 2 || std::find(near.begin(), near.end(), piece) != near.end(),
             "what touches the hull of two polygons is near their shaft");
+}
+
+/// A small face beyond a plane through an edge of one polygon and a corner of the other, which has both on one side, is
+/// not near their shaft.
+inline void try_kept_away(generate::Random& random) {
+  const auto point = [&] { return generate::lattice(random, 4); };
+  const generate::Points from{point(), point(), point()}, to{point(), point(), point()};
+  if (!spans_a_plane(from) || !spans_a_plane(to)) return;
+  const bool turned = random.chance(1, 2);
+  const generate::Points &own = turned ? to : from, &other = turned ? from : to;
+  const std::size_t edge = random.below(3);
+  const Exact_point &a = own[edge], &b = own[(edge + 1) % 3], n = cross(minus(b, a), minus(other[random.below(3)], a));
+  bool front = false, behind = false;
+  for (const generate::Points* polygon : {&from, &to})
+    for (const Exact_point& p : *polygon) {
+      front |= dot(n, minus(p, a)) > 0;
+      behind |= dot(n, minus(p, a)) < 0;
+    }
+  if (front == behind) return;
+  const Rational size = abs(n[0]) + abs(n[1]) + abs(n[2]), share = generate::integer(random, 0, 8) / 8;
+  const Exact_point beyond = generate::along(generate::along(a, share, minus(b, a)), (front ? -1 : 1) / (2 * size), n);
+  generate::Points face(3, beyond);
+  for (Exact_point& p : face)
+    for (Rational& x : p) x += generate::integer(random, -4, 4) / 256;
+  if (!spans_a_plane(face)) return;
+  const Scene scene(generate::soup_of({from, to, face}));
+  if (scene.pieces().size() != 3) return;
+  const Occluders occluders(scene);
+  std::array<std::uint32_t, 3> pieces{};
+  for (std::uint32_t piece = 0; piece < 3; ++piece) pieces[scene.pieces()[piece].face] = piece;
+  const std::vector<std::uint32_t> near =
+      occluders.near_shaft(occluders.polygon(pieces[0]), occluders.polygon(pieces[1]));
+  require(std::find(near.begin(), near.end(), pieces[2]) == near.end(),
+          "what a plane beside two polygons keeps away is not near their shaft");
+}
+
+// ---- Lines from beside
+
+/// Of lines between polygons that are near each other one end is hardly farther from the middle of the other polygon
+/// than any point of its own is.
+inline void try_lines_from_beside(generate::Random& random) {
+  const auto point = [&](std::int64_t reach, const Rational& above) {
+    Exact_point p = generate::lattice(random, reach);
+    p[2] = p[2] / 4 + above;
+    return p;
+  };
+  const generate::Points low{point(20, 0), point(20, 0), point(20, 0)}, high{point(4, 9), point(4, 9), point(4, 9)};
+  if (!spans_a_plane(low) || !spans_a_plane(high)) return;
+  const Scene scene(generate::soup_of({low, high}));
+  const Occluders occluders(scene);
+  if (scene.pieces().size() != 2) return;
+  const std::array<Near_polygon, 2> polygons{occluders.polygon(0), occluders.polygon(1)};
+  for (std::uint32_t own = 0; own < 2; ++own)  // pre: each is in front of the other, in part
+    if (side(occluders.plane(own), polygons[1 - own]) < 1) return;
+  const std::vector<Line_weights> lines = near_lines(polygons[0], occluders.plane(0), polygons[1], occluders.plane(1));
+  require(lines.size() == 4, "doubles hold the lines from beside");
+  const auto distance = [](const Triple& p, const Triple& q) {
+    return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  };
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const std::size_t own = k % 2;
+    const std::vector<double> even(3, 1.0 / 3);
+    const Triple middle = weighted_mean(polygons[1 - own], even),
+                 end = weighted_mean(polygons[own], own == 0 ? lines[k].source : lines[k].target);
+    double least = std::numeric_limits<double>::infinity(), size = 0;
+    for (int i = 0; i <= 8; ++i)
+      for (int j = 0; i + j <= 8; ++j)
+        least = std::min(least, distance(middle, weighted_mean(polygons[own], {i / 8.0, j / 8.0, (8 - i - j) / 8.0})));
+    for (const Near_point& corner : polygons[1 - own]) size = std::max(size, distance(middle, corner.near));
+    const double share = k < 2 ? 0.25 : 0.03125;
+    require(distance(middle, end) <= least + share * size + 1e-6, "a line from beside has an end that is near");
+  }
 }
 
 // ---- Bounds in a chart
@@ -250,9 +324,9 @@ inline void try_nearest_faces(generate::Random& random) {
 }
 
 inline void sure_doubles(std::string_view bytes) {
-  static constexpr std::array<void (*)(generate::Random&), 7> laws{try_bisector,     try_near_shaft,   try_near_shaft,
-                                                                   try_chart_bounds, try_chart_bounds, try_flat_views,
-                                                                   try_nearest_faces};
+  static constexpr std::array<void (*)(generate::Random&), 9> laws{
+      try_bisector,   try_near_shaft,    try_near_shaft, try_chart_bounds,     try_chart_bounds,
+      try_flat_views, try_nearest_faces, try_kept_away,  try_lines_from_beside};
   ask_one_of(laws, bytes);
 }
 

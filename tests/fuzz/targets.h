@@ -42,6 +42,8 @@
 #include "separations.h"
 #include "side.h"
 #include "single_parts.h"
+#include "small_certificates.h"
+#include "small_levels.h"
 #include "small_promises.h"
 #include "small_solids.h"
 #include "subject_laws.h"
@@ -110,6 +112,8 @@ inline const std::vector<Target>& targets() {
                                        {"ray_numbers", ray_numbers, {}},
                                        {"small_promises", small_promises, {}},
                                        {"small_solids", small_solids, {}},
+                                       {"small_certificates", small_certificates, {}},
+                                       {"small_levels", small_levels, {}},
                                        {"rare_files", rare_files, {}},
                                        {"kept_files", kept_files, {}},
                                        {"one_edge", one_edge, {}},

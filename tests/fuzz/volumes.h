@@ -1,6 +1,6 @@
 #pragma once
-// Given volumes, rooms say: they are taken iff they close up, are convex and overlap nowhere; and points of leaves of
-// the division are in the volumes that it says.
+// Given volumes, rooms say: they are taken iff they close up, go nowhere through themselves and overlap nowhere; and
+// points of leaves of the division are in the volumes that it says.
 
 #include "refusals.h"
 #include "support.h"
@@ -74,8 +74,25 @@ inline Faces convex_room(Random& random) {
   }
 }
 
-/// A box without a corner: a solid that is closed and not convex.
-inline Faces bent_room(Random& random) {
+/// A closed polyhedron, fronts outside, and convex parts of it by half-spaces.
+struct Room {
+  Faces faces;
+  std::vector<std::vector<Half_space>> parts;
+};
+
+inline std::vector<Half_space> half_spaces_of(const Faces& faces) {
+  std::vector<Half_space> all;
+  for (const Points& face : faces) all.push_back({cross(minus(face[1], face[0]), minus(face[2], face[0])), face[0]});
+  return all;
+}
+
+inline Room whole(Faces faces) {
+  std::vector<Half_space> sides = half_spaces_of(faces);
+  return {std::move(faces), {std::move(sides)}};
+}
+
+/// A box without an edge: an L.
+inline Room bent_room(Random& random) {
   const Exact_point o = generate::lattice(random, 3);
   const auto p = [&](long x, long y, long z) {
     return Exact_point{Rational(o[0] + x), Rational(o[1] + y), Rational(o[2] + z)};
@@ -92,13 +109,21 @@ inline Faces bent_room(Random& random) {
     side.push_back(b);
     faces.push_back(side);
   }
-  return faces;
+  return {
+      faces,
+      {half_spaces_of(generate::box(p(0, 0, 0), p(1, 2, 1))), half_spaces_of(generate::box(p(1, 0, 0), p(2, 1, 1)))}};
 }
 
-inline std::vector<Half_space> half_spaces_of(const Faces& faces) {
-  std::vector<Half_space> all;
-  for (const Points& face : faces) all.push_back({cross(minus(face[1], face[0]), minus(face[2], face[0])), face[0]});
-  return all;
+/// Two boxes with a box in common and a corner: one component, since they share that point, which goes through itself.
+inline Faces crossing_rooms(Random& random) {
+  const Exact_point o = generate::lattice(random, 3);
+  const auto p = [&](long x, long y, long z) {
+    return Exact_point{Rational(o[0] + x), Rational(o[1] + y), Rational(o[2] + z)};
+  };
+  Faces faces = generate::box(p(0, 0, 0), p(2, 2, 1));
+  const Faces other = generate::box(p(0, 0, 0), p(1, 3, 2));
+  faces.insert(faces.end(), other.begin(), other.end());
+  return faces;
 }
 
 /// Whether half-spaces have a point inside all: the corners of what they have in common are in no plane. By each three
@@ -137,23 +162,24 @@ inline void volumes(std::string_view bytes) {
 
   // 1. Volumes, and whether they may be taken.
   std::vector<Faces> drawn;
-  std::vector<std::vector<rooms::Half_space>> insides;
+  std::vector<std::vector<std::vector<rooms::Half_space>>> insides;  // of each the parts
   bool right = true;
   for (std::uint64_t count = 1 + random.below(4); count > 0; --count) {
-    drawn.push_back(random.chance(1, 12) ? bent_room(random) : convex_room(random));
-    insides.push_back(half_spaces_of(drawn.back()));
-    const bool is_convex = std::all_of(insides.back().begin(), insides.back().end(), [&](const rooms::Half_space& h) {
-      return std::all_of(drawn.back().begin(), drawn.back().end(), [&](const Points& face) {
-        return std::all_of(face.begin(), face.end(), [&](const Exact_point& p) { return h.side(p) <= 0; });
-      });
-    });
-    right = right && is_convex;
-    if (!is_convex) continue;
-    for (std::size_t k = 0; k + 1 < insides.size(); ++k) {
-      std::vector<rooms::Half_space> both = insides[k];
-      both.insert(both.end(), insides.back().begin(), insides.back().end());
-      right = right && !have_inside(both);
-    }
+    Room room = random.chance(1, 4) ? bent_room(random) : whole(convex_room(random));
+    for (const auto& others : insides)
+      for (const std::vector<rooms::Half_space>& other : others)
+        for (const std::vector<rooms::Half_space>& part : room.parts) {
+          std::vector<rooms::Half_space> both = other;
+          both.insert(both.end(), part.begin(), part.end());
+          right = right && !have_inside(both);
+        }
+    drawn.push_back(std::move(room.faces));
+    insides.push_back(std::move(room.parts));
+  }
+  if (random.chance(1, 20)) {
+    drawn.push_back(crossing_rooms(random));
+    insides.emplace_back();
+    right = false;
   }
   if (random.chance(1, 10)) {  // a face less, or turned round
     Faces& some = drawn[random.below(drawn.size())];
@@ -192,9 +218,9 @@ inline void volumes(std::string_view bytes) {
     ++told;
     require(done <= all, "nobody is told of more than all");
   };
-  const bool refused = is_refused<std::invalid_argument>([&] { division = convex_volumes(soup, progress); });
+  const bool refused = is_refused<std::invalid_argument>([&] { division = volume_division(soup, progress); });
   require(refused || drawn.empty() || told > 0, "who asks is told how far it is");
-  require(refused != right, "volumes are refused iff one is open or not convex, or two overlap");
+  require(refused != right, "volumes are refused iff one is open or goes through itself, or two overlap");
   if (refused) return;
   require(division.volumes == drawn.size(), "each volume is one");
   for (int k = 0; k < 20; ++k) {
@@ -206,12 +232,11 @@ inline void volumes(std::string_view bytes) {
       side = sgn(Rational(node.plane[0] * p[0] + node.plane[1] * p[1] + node.plane[2] * p[2] + node.plane[3]));
       if (side != 0) at = node.children[side > 0 ? 0 : 1];
     }
-    if (at >= 0) continue;  // in the plane of a node
-    std::size_t leaf = drawn.size();
+    if (at >= 0) continue;            // in the plane of a node
+    std::size_t leaf = drawn.size();  // no border of a volume goes through a leaf, but one between parts may
     for (std::size_t n = 0; n < order.size(); ++n)
-      if (std::all_of(insides[order[n]].begin(), insides[order[n]].end(),
-                      [&](const rooms::Half_space& h) { return h.side(p) < 0; }))
-        leaf = n;
+      for (const std::vector<rooms::Half_space>& part : insides[order[n]])
+        if (std::all_of(part.begin(), part.end(), [&](const rooms::Half_space& h) { return h.side(p) <= 0; })) leaf = n;
     require(static_cast<std::size_t>(-1 - at) == leaf, "a point's leaf is the volume that it is in");
   }
 }
