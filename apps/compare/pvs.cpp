@@ -1,5 +1,5 @@
-// compare pvs: what the cells of a level see, by flooding, by random rays, through any portals, and by the table that a
-// compiled level came with.
+// compare pvs: what the cells of a level see, by flooding, by rays at random and from middle to middle, through any
+// portals, and by the table that a compiled level came with.
 
 #include "../support/limited_process.h"
 #include "../support/page.h"
@@ -115,6 +115,30 @@ Sets by_rays(const Cells_question& question, std::size_t rays, std::uint64_t see
     for (std::size_t k = 0; k < rays; ++k) {
       if (k % rays_a_point == 0) p = question.occluders.located(points.any(random)).near;
       const auto hit = question.occluders.first_hit(p, {normal(random), normal(random), normal(random)});
+      if (hit && hit->front) seen.insert(scene.pieces()[hit->piece].face);
+    }
+    sets[c].assign(seen.begin(), seen.end());
+  }
+  return sets;
+}
+
+/// Rays from the middle of each cell to the middle of each piece of a face, in doubles: what they meet first.
+Sets by_midpoints(const Cells_question& question) {
+  const Scene& scene = question.level.scene();
+  std::vector<Triple> middles;
+  for (const Piece& piece : scene.pieces()) {
+    Triple& middle = middles.emplace_back(Triple{});
+    for (const Piece_corner& corner : scene.corners(piece))
+      for (std::size_t k = 0; k < 3; ++k)
+        middle[k] += question.occluders.located(scene.position(corner.point)).near[k] /
+                     static_cast<double>(scene.corners(piece).size());
+  }
+  Sets sets(question.level.cells().size());
+  for (const Cell_id c : question.cells) {
+    const Triple p = question.occluders.located(question.level.inside(c)).near;
+    std::set<Face_id> seen(question.level.cells()[c].faces.begin(), question.level.cells()[c].faces.end());
+    for (const Triple& q : middles) {
+      const auto hit = question.occluders.first_hit(p, {q[0] - p[0], q[1] - p[1], q[2] - p[2]});
       if (hit && hit->front) seen.insert(scene.pieces()[hit->piece].face);
     }
     sets[c].assign(seen.begin(), seen.end());
@@ -328,6 +352,7 @@ struct Level_trial : Trial {
     for (const std::size_t rays : arguments.rays)
       add({{"kernel", "double"}, {"method", "rays"}, {"rays", rays}},
           [this, rays, seed = common.seed] { return by_rays(question, rays, seed); });
+    add({{"kernel", "double"}, {"method", "midpoints"}}, [this] { return by_midpoints(question); });
     add({{"kernel", "exact"}, {"method", "any portals"}}, [this] { return by_portals(question); });
     if (file) add({{"kernel", "float"}, {"method", "the file's table"}}, [this] { return by_engine(question, *file); });
     right = [](const Json& r) {

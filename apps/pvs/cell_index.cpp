@@ -71,7 +71,8 @@ void write_index(const fs::path& folder, const std::string& question, const Shar
 
 std::map<std::uint64_t, Certificate_facts> facts_in_index(const fs::path& folder, const std::string& question,
                                                           const Shard& own) {
-  const fs::path file = own.shards == 1 ? index_of(folder) : part_of_index(folder, own);
+  fs::path file = own.shards == 1 ? index_of(folder) : part_of_index(folder, own);
+  if (!fs::is_regular_file(file)) file = index_of(folder);  // of parts that were put together
   std::map<std::uint64_t, Certificate_facts> found;
   if (!fs::is_regular_file(file)) return found;
   try {

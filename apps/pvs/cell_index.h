@@ -33,8 +33,8 @@ Json other_entry(std::uint64_t cell, const Cell_statement& statement);
 void write_index(const std::filesystem::path& folder, const std::string& question, const Shard& own, bool all_decided,
                  Json cells, Json rest);
 
-/// By cell what an index or the part of a shard says of certificates, where it is there, answers that question, and
-/// they leave nothing undecided.
+/// By cell what the part of a shard, or else the index, says of certificates, where it is there, answers that question,
+/// and they leave nothing undecided.
 std::map<std::uint64_t, Certificate_facts> facts_in_index(const std::filesystem::path& folder,
                                                           const std::string& question, const Shard& own);
 
