@@ -13,7 +13,8 @@ struct Shard {
 };
 
 /// I/N as --shard has it, or what an array of jobs says (SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT) where that is
-/// not given, and is told on standard error. Errors: Usage_error
+/// not given, and is told on standard error. Errors: Usage_error, also for an array that does not begin at 0 or has
+/// gaps, since it does not say how many shards there are.
 Shard shard_of(const std::string& text);
 
 }  // namespace sightline::app
