@@ -167,11 +167,16 @@ class Pvs_maker {
 
 using levels_detail::Pvs_maker;
 
+std::vector<char> regions_with_a_way_out(const Level_cells& level) {
+  std::vector<char> has_way_out(level.counters().regions, 0);
+  for (const Level_cell& cell : level.cells())
+    if (cell.is_outside) has_way_out[cell.region] = 1;
+  return has_way_out;
+}
+
 std::vector<char> asked_cells(const Level_cells& level, bool outside) {
   const std::vector<Level_cell>& cells = level.cells();
-  std::vector<char> has_way_out(level.counters().regions, 0);
-  for (const Level_cell& cell : cells)
-    if (cell.is_outside) has_way_out[cell.region] = 1;
+  const std::vector<char> has_way_out = regions_with_a_way_out(level);
   const auto is_inside = [&](const Level_cell& cell) { return !cell.is_solid && has_way_out[cell.region] == 0; };
   const bool all = outside || std::none_of(cells.begin(), cells.end(), is_inside);
   std::vector<char> asked;

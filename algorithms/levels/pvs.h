@@ -77,6 +77,9 @@ class Pvs_search {
   std::unique_ptr<levels_detail::Pvs_maker> maker_;
 };
 
+/// By region, whether it has a cell without an end.
+std::vector<char> regions_with_a_way_out(const Level_cells& level);
+
 /// By cell, whether it is asked about: rooms without a way out; or all cells that are not solid, where there are none,
 /// or `outside` asks for it.
 std::vector<char> asked_cells(const Level_cells& level, bool outside);

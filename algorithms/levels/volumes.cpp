@@ -102,8 +102,9 @@ std::vector<Exact_point> corners_of(const Scene& scene) {
 }
 
 /// A closed polyhedron where it is convex: all of it is on one side of each plane, the same side.
-std::optional<Convex_volume> as_convex(const Component& of, const Go_on& go_on) {
-  Convex_volume volume{of.name(0), of.number, {}, corners_of(of.scene), {}};
+std::optional<Convex_volume> as_convex(const Component& of, const std::vector<Exact_point>& corners,
+                                       const Go_on& go_on) {
+  Convex_volume volume{of.name(0), of.number, {}, corners, {}};
   int inside = 0;  // the side that it is on
   for (const Piece& piece : of.scene.pieces()) {
     go_on();
@@ -162,8 +163,8 @@ std::vector<Convex_volume> parts_of(const Polygon_soup& soup, const std::vector<
     throw std::invalid_argument(component.name(0) + " and what shares points with it do not close up; add the faces " +
                                 "that are missing, and turn the others so that all fronts look outwards, or all " +
                                 "inwards");
-  std::optional<Convex_volume> whole = as_convex(component, go_on);
   const std::vector<Exact_point> through = corners_of(component.scene);
+  std::optional<Convex_volume> whole = as_convex(component, through, go_on);
   corners.insert(corners.end(), through.begin(), through.end());
   if (whole) return {*std::move(whole)};
   return in_convex_parts(component, own, go_on);

@@ -126,12 +126,11 @@ Sets by_rays(const Cells_question& question, std::size_t rays, std::uint64_t see
 Sets by_midpoints(const Cells_question& question) {
   const Scene& scene = question.level.scene();
   std::vector<Triple> middles;
-  for (const Piece& piece : scene.pieces()) {
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
+    const Near_polygon corners = question.occluders.polygon(piece);
     Triple& middle = middles.emplace_back(Triple{});
-    for (const Piece_corner& corner : scene.corners(piece))
-      for (std::size_t k = 0; k < 3; ++k)
-        middle[k] += question.occluders.located(scene.position(corner.point)).near[k] /
-                     static_cast<double>(scene.corners(piece).size());
+    for (const Near_point& corner : corners)
+      for (std::size_t k = 0; k < 3; ++k) middle[k] += corner.near[k] / static_cast<double>(corners.size());
   }
   Sets sets(question.level.cells().size());
   for (const Cell_id c : question.cells) {

@@ -5,12 +5,14 @@
 
 #include "../support/drawing.h"
 #include "../support/files.h"
+#include "../support/page.h"
 #include "certificates.h"
 #include "drawings.h"
 #include "into_level.h"
 #include "table_maker.h"
 #include "tables.h"
 
+#include <sightline/algorithms/levels/pvs.h>
 #include <sightline/io/file.h>
 #include <sightline/io/input.h>
 
@@ -40,13 +42,19 @@ void check_usage(const Pvs_arguments& arguments, const Shard& own) {
 /// A level that is not shut would be asked about what is outside, too. Errors: Input_error where what stands in it has
 /// a way out.
 void check_leaks(const Common& common, const Level_cells& level) {
-  for (const Map_place& place : places_of(common).value_or(std::vector<Map_place>{}))
-    if (!level.way_out(place.origin).empty())
-      throw Input_error::of_file(
-          common.scene,
-          fmt::format("is not shut: there is a way out from {} at {}, {}, {}; `sightline cells SCENE "
-                      "--seal entities` shows ways; --outside asks about all cells",
-                      place.name, to_string(place.origin[0]), to_string(place.origin[1]), to_string(place.origin[2])));
+  const std::vector<char> has_way_out = regions_with_a_way_out(level);
+  const auto leads_out = [&](Cell_id c) {
+    const Level_cell& cell = level.cells()[c];
+    return !cell.is_solid && has_way_out[cell.region] != 0;
+  };
+  for (const Map_place& place : places_of(common).value_or(std::vector<Map_place>{})) {
+    const std::vector<Cell_id> cells = level.about(place.origin);
+    if (std::any_of(cells.begin(), cells.end(), leads_out))
+      throw Input_error::of_file(common.scene,
+                                 fmt::format("is not shut: there is a way out from {} at {}; `sightline cells SCENE "
+                                             "--seal entities` shows ways; --outside asks about all cells",
+                                             place.name, Page::text(place.origin)));
+  }
 }
 
 /// The cells that --show names: by number, or by a point in or on the border of one. Errors: Usage_error where there is

@@ -25,9 +25,8 @@ Table_maker::Table_maker(const Pvs_arguments& arguments, const Division& divisio
 }
 
 static bool is_decided(const Visibility_table& table) {
-  return std::all_of(table.rows.begin(), table.rows.end(), [](const Visibility_table::Row& row) {
-    return row.undecided.empty() && row.cells_undecided.empty();
-  });
+  return count_of(table, &Visibility_table::Row::undecided) == 0 &&
+         count_of(table, &Visibility_table::Row::cells_undecided) == 0;
 }
 
 Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {

@@ -148,19 +148,21 @@ inline void try_many_behind_a_plate(Random& random) {
   require(found.counters.occluders <= 8, "pieces are sought near no shaft that a plate blocks");
 }
 
+/// Three points at one height.
+inline Points level_triangle(long z, Random& random) {
+  Points corners;
+  for (int c = 0; c < 3; ++c) {
+    corners.push_back(generate::lattice(random, 9));
+    corners.back()[2] = z;
+  }
+  return corners;
+}
+
 /// Two triangles in parallel planes, with nothing between them: the one is lit by all of the other, without a curve;
 /// and an eye that moves in the plane between asks what a point of what it sees tells, and needs one run.
 inline void try_nothing_between(Random& random) {
-  const auto triangle = [&](long z) {
-    Points corners;
-    for (int c = 0; c < 3; ++c) {
-      corners.push_back(generate::lattice(random, 9));
-      corners.back()[2] = z;
-    }
-    return corners;
-  };
-  Points source = triangle(0), target = triangle(8);
-  const Exact_point from = triangle(4)[0], to = triangle(4)[0];
+  Points source = level_triangle(0, random), target = level_triangle(8, random);
+  const Exact_point from = level_triangle(4, random)[0], to = level_triangle(4, random)[0];
   if (is_zero(Flat_face(source).normal) || is_zero(Flat_face(target).normal) || from == to) return;
   source = facing(source, target[0]);
   target = facing(target, source[0]);
@@ -184,15 +186,7 @@ inline void try_parts_of_a_wall(Random& random) {
   constexpr long plates = 4;
   int in_parts = 0;
   for (int k = 0; k < pairs; ++k) {
-    const auto triangle = [&](long z) {
-      Points corners;
-      for (int c = 0; c < 3; ++c) {
-        corners.push_back(generate::lattice(random, 9));
-        corners.back()[2] = z;
-      }
-      return corners;
-    };
-    Points source = triangle(0), target = triangle(16);
+    Points source = level_triangle(0, random), target = level_triangle(16, random);
     if (is_zero(Flat_face(source).normal) || is_zero(Flat_face(target).normal)) return;
     source = facing(source, target[0]);
     std::vector<Points> faces{facing(target, source[0])};

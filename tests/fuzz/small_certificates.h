@@ -120,9 +120,12 @@ inline void try_rays_through_borders(generate::Random& random) {
 
 // ---- Solids
 
-/// Two boxes, and a fragment of theirs with another fate: it is told what it is called, and what it should be.
-inline void try_other_fates(generate::Random& random) {
-  using Fate = Solid_certificate::Fate;
+struct Solids_claim {
+  std::vector<Polygon_soup> solids;
+  Solid_certificate claim;
+};
+/// Two boxes on a lattice, and what some operation makes of them.
+inline Solids_claim claim_of_boxes(generate::Random& random) {
   std::vector<Polygon_soup> solids;
   for (int k = 0; k < 2; ++k) {
     const Exact_point low = generate::lattice(random, 2);
@@ -132,7 +135,13 @@ inline void try_other_fates(generate::Random& random) {
   }
   const Set_options options = harness::drawn_operation(random);
   const Operands operands(solids);
-  Solid_certificate claim = solid_certificate(operands, options, set_operation(operands, options));
+  return {solids, solid_certificate(operands, options, set_operation(operands, options))};
+}
+
+/// Two boxes, and a fragment of theirs with another fate: it is told what it is called, and what it should be.
+inline void try_other_fates(generate::Random& random) {
+  using Fate = Solid_certificate::Fate;
+  auto [solids, claim] = claim_of_boxes(random);
   const std::size_t i = random.below(claim.fragments.size());
   const Fate right = claim.fragments[i].fate, wrong = static_cast<Fate>(random.below(3));
   claim.fragments[i].fate = wrong;
@@ -215,16 +224,7 @@ inline void try_points_on_edges(generate::Random& random) {
 /// Two solids of triangles or quadrilaterals, and a fragment the other way round: it is named by its place in the list,
 /// in words as in numbers.
 inline void try_named_fragments(generate::Random& random) {
-  std::vector<Polygon_soup> solids;
-  for (int k = 0; k < 2; ++k) {
-    const Exact_point low = generate::lattice(random, 2);
-    Exact_point high = low;
-    for (Rational& x : high) x += generate::integer(random, 1, 3);
-    solids.push_back(generate::soup_of(generate::box(low, high)));
-  }
-  const Set_options options = harness::drawn_operation(random);
-  const Operands operands(solids);
-  Solid_certificate claim = solid_certificate(operands, options, set_operation(operands, options));
+  auto [solids, claim] = claim_of_boxes(random);
   const std::size_t i = random.below(claim.fragments.size());
   std::reverse(claim.fragments[i].vertices.begin(), claim.fragments[i].vertices.end());
   const Verdict verdict = verify_solids(solids, claim, nullptr, {1, {}});

@@ -218,8 +218,7 @@ TEST_F(Levels, a_leak_is_found_and_a_solid_point_refused) {
 
 /// The two rooms less the ceiling's brush, or another one.
 static std::string without_brush(const std::string& rooms, std::size_t brush) {
-  std::ifstream in(rooms, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text = read_file(rooms);
   std::size_t begin = text.find("\n{\n(");
   for (; brush > 0; --brush) begin = text.find("\n{\n(", begin + 1);
   return text.erase(begin, text.find("\n}", begin) + 2 - begin);
@@ -245,8 +244,7 @@ TEST_F(Levels, what_stands_on_a_brush_is_in_the_room_beside_it) {
   }
   EXPECT_EQ(run({"pvs", out("leak.map"), "--outside"}).code, done);
   // Where all stand in walls nothing is known.
-  std::ifstream in(rooms, std::ios::binary);
-  std::string shut{std::istreambuf_iterator<char>(in), {}};
+  std::string shut = read_file(rooms);
   file("shut.map", shut.replace(shut.find(origin), origin.size(), "\"-8 64 50\""));
   const Outcome nothing = run({"cells", out("shut.map"), "--seal", "entities"});
   EXPECT_EQ(nothing.code, bad_input) << nothing;
