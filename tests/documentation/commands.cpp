@@ -153,7 +153,8 @@ class Commands : public program::Program {
  protected:
   /// A line for the shell, in a folder; `sightline` is the program.
   Outcome shell(const fs::path& folder, const std::string& line) {
-    launcher_ = {"/bin/sh", "-c", "cd '" + folder.string() + "' && sightline() { \"$0\" \"$@\"; } && " + line};
+    launcher_ = {"/bin/sh", "-c",
+                 "export LC_ALL=C; cd '" + folder.string() + "' && sightline() { \"$0\" \"$@\"; } && " + line};
     return run({});
   }
 };
