@@ -10,7 +10,7 @@ Order_fragment whole_piece(const Scene& scene, const Piece& piece) {
   Order_fragment fragment;
   fragment.face = piece.face;
   fragment.piece = piece.number;
-  for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
+  fragment.vertices = scene.corner_points(piece);
   return fragment;
 }
 
@@ -24,7 +24,7 @@ void add_pieces(Covering& covering, const Scene& scene) {
     Covering::Piece& part = covering.pieces.emplace_back();
     part.face = piece.face;
     part.piece = piece.number;
-    for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
+    part.vertices = scene.corner_points(piece);
   }
   for (const Set_aside& entry : scene.set_aside()) covering.set_aside.push_back({entry.face, entry.why});
 }

@@ -443,7 +443,7 @@ void add_boolean(Command program) {
           "--certificate", a->certificate,
           "write what `sightline verify A CERTIFICATE --solid B ...` reads: all fragments, and why each is kept")
       .writes_file();
-  command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
+  add_json_option(command, a->json);
   add_mesh_option(command, a->mesh,
                   "the exact result in convex pieces, by solids, with the face of the solid that each is of,");
   command.add_option("--html", a->html, "write a page to look at: the result, each face in its solid's colour")

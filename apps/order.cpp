@@ -430,8 +430,7 @@ void add_order(Command program) {
       "order", "The exact order of a scene from an eye, back to front, with a picture and a certificate");
   auto a = std::make_shared<Order_arguments>();
   a->common.add_to(command);
-  command.add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
-      .check(not_empty());
+  add_eye_option(command, a->eye);
   command.add_option("--kernel", a->kernel, "arithmetic").check(one_of(kernel_names)).show_default();
   command
       .add_option("--method", a->method,

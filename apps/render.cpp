@@ -191,8 +191,7 @@ void add_render(Command program) {
       program.add_command("render", "A picture of a scene, by each method there is to find what is visible");
   auto a = std::make_shared<Render_arguments>();
   a->common.add_to(command);
-  command.add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
-      .check(not_empty());
+  add_eye_option(command, a->eye);
   command
       .add_option(
           "--method", a->method,

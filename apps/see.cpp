@@ -203,8 +203,7 @@ void write_mesh(const std::string& file, const Scene& scene, const Seen& seen) {
   std::vector<Exact_point> corners;
   for (const Piece& piece : scene.pieces()) {
     if (has_part[piece.face]) continue;
-    corners.clear();
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    corners = scene.corner_points(piece);
     polygons.add_polygon(hidden, piece.face, corners);
   }
   write_drawings({}, file, polygons);
@@ -438,8 +437,7 @@ void add_see(Command program) {
       program.add_command("see", "The exact visible parts of a scene from an eye, with a picture and a certificate");
   auto a = std::make_shared<See_arguments>();
   a->common.add_to(command);
-  command.add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
-      .check(not_empty());
+  add_eye_option(command, a->eye);
   command.add_option("--kernel", a->kernel, "arithmetic")
       .check(one_of({"exact", "epeck", "gmpq", "double", "float"}))
       .show_default();

@@ -7,11 +7,11 @@
 #include <sightline/harness/generate/scenes.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <iostream>
 #include <string>
 #include <string_view>
@@ -20,8 +20,6 @@
 using namespace sightline;
 
 namespace {
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void measure(const std::string& name, const Polygon_soup& soup) {
   Cell_options cell_options;

@@ -11,10 +11,9 @@
 #include <sightline/algorithms/rays/tracer.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/generate/scenes.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <fmt/format.h>
-
-#include <ctime>
 
 #include <algorithm>
 #include <array>
@@ -28,16 +27,14 @@ using namespace sightline;
 
 namespace {
 
-double user_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 /// The least seconds of three turns.
 template <class Work>
 double timed(Work work) {
   double least = 1e300;
   for (int turn = 0; turn < 3; ++turn) {
-    const double begin = user_seconds();
+    const double begin = processor_seconds();
     work();
-    least = std::min(least, user_seconds() - begin);
+    least = std::min(least, processor_seconds() - begin);
   }
   return least;
 }
@@ -82,12 +79,12 @@ std::vector<Double_ray> rays_of(std::string_view kind, const Scene& scene, std::
 }
 
 void measure(const Scene& scene, const std::string& name, std::size_t count) {
-  double begin = user_seconds();
+  double begin = processor_seconds();
   const Ray_tracer tracer(scene);
-  const double build = user_seconds() - begin;
-  begin = user_seconds();
+  const double build = processor_seconds() - begin;
+  begin = processor_seconds();
   const app::Traced_scene embree(scene, 1), watertight(scene, 1, true);
-  const double embree_build = (user_seconds() - begin) / 2;
+  const double embree_build = (processor_seconds() - begin) / 2;
   Bsp_options options;
   options.threads = 1;
   const Exact_traits traits(scene);

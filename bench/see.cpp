@@ -6,13 +6,14 @@
 
 #include "measure.h"
 
-#include <sightline/harness/generate/scenes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
-#include <sightline/io/plot.h>
 #include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/scenes.h>
 #include <sightline/harness/generate/soups.h>
+#include <sightline/io/plot.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <CGAL/Env_surface_data_traits_3.h>
 #include <CGAL/Env_triangle_traits_3.h>
@@ -22,7 +23,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ctime>
 #include <iostream>
 #include <iterator>
 #include <map>
@@ -86,8 +86,6 @@ Visible_options threads(int n) {
 }
 
 /// Of this process, which works in one thread: what others do at the same time counts less than on the clock.
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 void best(double& least, double seconds) { least = least == 0 ? seconds : std::min(least, seconds); }
 
 // ---- How it scales, and what exactness costs

@@ -11,6 +11,7 @@
 #include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Nef_polyhedron_3.h>
@@ -27,17 +28,10 @@
 #include <malloc.h>
 
 #include <cmath>
-#include <ctime>
 
 using namespace sightline;
 
 namespace {
-
-double processor_seconds() {
-  timespec time;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 Polygon_soup box(const Exact_point& low, const Exact_point& high) {
   Polygon_soup soup;

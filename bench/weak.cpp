@@ -37,12 +37,6 @@ constexpr Others others[] = {{10, 0.15, 0},  {20, 0.6, 0},  {50, 5.8, 0.06},  {1
 
 std::string ratio(double theirs, double ours) { return theirs > 0 ? fmt::format("{:.1f}", theirs / ours) : "-"; }
 
-std::vector<Exact_point> corners_of(const Scene& scene, const Piece& piece) {
-  std::vector<Exact_point> points;
-  for (const Piece_corner& corner : scene.corners(piece)) points.push_back(scene.position(corner.point));
-  return points;
-}
-
 void random_triangles(std::size_t most, std::size_t queries, std::ostream& csv) {
   fmt::print("random triangles between two squares, {} queries each, one core, milliseconds; every answer is checked\n",
              queries);
@@ -76,7 +70,8 @@ void random_triangles(std::size_t most, std::size_t queries, std::ostream& csv) 
       for (Face_id f = 0; f < soup.face_count(); ++f)
         if (f != 1 || answer.status == Weak_status::undecided) all.undecided.push_back(f);
       if (answer.status != Weak_status::undecided) all.pairs.push_back({1, 0, std::move(answer)});
-      const Weak_certificate certificate = weak_certificate(scene, {corners_of(scene, scene.pieces()[0])}, false, all);
+      const Weak_certificate certificate =
+          weak_certificate(scene, {scene.corner_points(scene.pieces()[0])}, false, all);
       const double written = bench::now();
       const Verdict verdict = verify_weak(soup, certificate);
       check += bench::now() - written;
@@ -131,7 +126,7 @@ void rooms(const std::filesystem::path& folder, std::size_t count, std::ostream&
       by_events -= found.undecided.size();
       counters += found.counters;
       const Weak_certificate certificate =
-          weak_certificate(scene, {corners_of(scene, scene.pieces()[piece])}, false, found);
+          weak_certificate(scene, {scene.corner_points(scene.pieces()[piece])}, false, found);
       const double written = bench::now();
       const Verdict verdict = verify_weak(soup, certificate);
       check += bench::now() - written;

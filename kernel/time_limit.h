@@ -2,6 +2,7 @@
 // The clock of all that is timed, and a budget of seconds, which may run out.
 
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <stdexcept>
 
@@ -20,6 +21,12 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// Seconds of this process on processors, those of all its threads.
+inline double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Whether an option of that kind, which may be empty, says that the time is over.
+inline bool has_run_out(const std::function<bool()>& out_of_time) { return out_of_time && out_of_time(); }
 
 /// So many seconds from when it was made; 0: no limit. A copy has the same end.
 class Time_limit {

@@ -2,6 +2,8 @@
 // Vectors of three coordinates: differences, products of two of them. Of any number; as exact as that is.
 
 #include <array>
+#include <cstddef>
+#include <type_traits>
 
 namespace sightline {
 
@@ -27,6 +29,16 @@ std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Num
 template <class Number>
 bool is_zero(const std::array<Number, 3>& a) {
   return a[0] == 0 && a[1] == 0 && a[2] == 0;
+}
+
+/// The mean of points, of which there is one.
+template <class Points>
+auto middle_of(const Points& points) {
+  std::decay_t<decltype(points[0])> sum = points[0];
+  for (std::size_t i = 1; i < points.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += points[i][k];
+  for (auto& x : sum) x /= static_cast<long>(points.size());
+  return sum;
 }
 
 }  // namespace sightline

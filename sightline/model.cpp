@@ -125,7 +125,7 @@ const std::vector<Part>& Model::Inside::parts() const {
 Part Model::Inside::part(const Piece& piece) const {
   const Scene& of = scene();
   Part part{piece.face, piece.number, {}};
-  for (const Piece_corner& corner : of.corners(piece)) part.corners.push_back(of.position(corner.point));
+  part.corners = of.corner_points(piece);
   return part;
 }
 

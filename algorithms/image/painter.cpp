@@ -121,8 +121,7 @@ std::vector<Painted_polygon> heedless_order(const Scene& scene, const Pixel_view
   for (const std::uint32_t i : image_detail::sorted(scene, pixels, key, kernel, options)) {
     if (options.progress) options.progress(0, scene.pieces().size());
     Painted_polygon& polygon = polygons.emplace_back(Painted_polygon{i, {}});
-    for (const Piece_corner& corner : scene.corners(scene.pieces()[i]))
-      polygon.corners.push_back(scene.position(corner.point));
+    polygon.corners = scene.corner_points(scene.pieces()[i]);
   }
   return polygons;
 }

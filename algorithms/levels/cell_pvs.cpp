@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/time_limit.h>
 #include <sightline/kernel/uniform.h>
 
 #include <algorithm>
@@ -99,7 +100,7 @@ class Cell_pvs_search::Maker {
     // 1. Through a portal between them, from a point of the one.
     for (const std::size_t w : ways_.into(from))
       if (ways_[w].from == to) {
-        const Exact_point r = middle_of(ways_[w].source.polygon), p = level_.inside(from);
+        const Exact_point r = middle_of(points_of(ways_[w].source.polygon)), p = level_.inside(from);
         Exact_point way;
         for (std::size_t k = 0; k < 3; ++k) way[k] = r[k] - p[k];
         return into_cells(from, to, r, r, way);
@@ -142,7 +143,7 @@ class Cell_pvs_search::Maker {
     }
   };
 
-  bool out_of_time() const { return options_.search.out_of_time && options_.search.out_of_time(); }
+  bool out_of_time() const { return has_run_out(options_.search.out_of_time); }
 
   bool is_asked(Cell_id cell) const { return ways_.is_asked()[cell] != 0; }
 
@@ -264,14 +265,6 @@ class Cell_pvs_search::Maker {
     return status;
   }
 
-  Exact_point middle_of(const Near_polygon& polygon) const {
-    Exact_point sum{};
-    for (const Exact_point& p : points_of(polygon))
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k];
-    for (Rational& x : sum) x /= static_cast<long>(polygon.size());
-    return sum;
-  }
-
   /// A sightline from r to s, both inside portals, made longer so that its ends are inside the cells: where it may
   /// reach a wall, half as far.
   std::array<Exact_point, 2> into_cells(Cell_id from, Cell_id to, const Exact_point& r, const Exact_point& s,
@@ -323,9 +316,7 @@ class Cell_pvs_search::Maker {
       soup.add_face(loop);
     };
     for (const Piece& piece : level.pieces()) {
-      std::vector<Exact_point> polygon;
-      for (const Piece_corner& corner : level.corners(piece)) polygon.push_back(level.position(corner.point));
-      add(polygon);
+      add(level.corner_points(piece));
     }
     const Face_id target = static_cast<Face_id>(soup.face_count());
     add(points_of(ways_[to].source.polygon));

@@ -3,6 +3,7 @@
 #include <sightline/algorithms/levels/ways.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
 #include <atomic>
@@ -87,7 +88,7 @@ class Pvs_maker {
     }
   }
 
-  bool out_of_time() const { return options_.search.out_of_time && options_.search.out_of_time(); }
+  bool out_of_time() const { return has_run_out(options_.search.out_of_time); }
 
   /// All cells that see a face, outwards from where it is. Once out of time, what is not visible is undecided.
   Pvs_counters flood(const Target& target, std::vector<Cell_id>& visible, std::vector<Cell_id>& undecided) const {

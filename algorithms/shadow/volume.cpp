@@ -78,9 +78,7 @@ class Caster {
  private:
   /// A piece's shadow, from the piece to beyond the box; nothing where the light is in its plane.
   bool add_frustum(std::uint32_t piece, const Box& box) {
-    std::vector<Exact_point> corners;
-    for (const Piece_corner& corner : scene_.corners(scene_.pieces()[piece]))
-      corners.push_back(scene_.position(corner.point));
+    const std::vector<Exact_point> corners = scene_.corner_points(scene_.pieces()[piece]);
     Exact_point normal;
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
       const Exact_point part = cross(minus(corners[k], corners[0]), minus(corners[k + 1], corners[0]));

@@ -6,32 +6,13 @@
 #include <sightline/algorithms/solids/fragments.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/union_find.h>
 
-#include <algorithm>
 #include <atomic>
-#include <numeric>
 
 namespace sightline {
 
 namespace {
-
-/// Sets of pieces that hang together, by the least of each.
-class Patches {
- public:
-  explicit Patches(std::size_t pieces) : parent_(pieces) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t of(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = of(i);
-    j = of(j);
-    if (i != j) parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// What is decided of a fragment.
 struct Fragment_verdict {
@@ -116,13 +97,13 @@ Set_result set_operation(const Operands& given, const Set_options& options) {
   const Contacts found = contacts(operands, tree, stage(0));
 
   // 2. Pieces that meet no other, in patches; each of them has the winding numbers of its least piece.
-  Patches patches(pieces);
+  Union_find patches(pieces);  // by the least of each
   for (const auto& [i, j] : found.joined) patches.join(i, j);
   std::vector<std::uint32_t> touched, heads;
   for (std::uint32_t i = 0; i < pieces; ++i) {
     if (found.touched[i]) touched.push_back(i);
-    else if (patches.of(i) == i) heads.push_back(i);
-    if (!found.touched[i] && (patches.of(i) == i || !is_whole_face(operands, i))) operands.make_edges(i);
+    else if (patches.find(i) == i) heads.push_back(i);
+    if (!found.touched[i] && (patches.find(i) == i || !is_whole_face(operands, i))) operands.make_edges(i);
   }
   const Predicates predicates = operands.predicates();
 
@@ -161,7 +142,7 @@ Set_result set_operation(const Operands& given, const Set_options& options) {
     if (options.keep_fragments) stage(1)(1, 1);  // their points take long
     if (!found.touched[i]) {
       ++fragments;
-      const Fragment_verdict& verdict = of_heads[head_place[patches.of(i)]];
+      const Fragment_verdict& verdict = of_heads[head_place[patches.find(i)]];
       if (options.keep_fragments)
         result.fragments.push_back(reported(operands, predicates, whole(operands, predicates, i), verdict));
       if (verdict.fate != Result_fragment::Fate::dropped)

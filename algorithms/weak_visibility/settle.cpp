@@ -3,6 +3,7 @@
 #include <sightline/algorithms/weak_visibility/events/events.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
 #include <atomic>
@@ -109,7 +110,7 @@ Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source&
           return same(parts.source, cell.source) && same(parts.target, cell.target);
         }))
       continue;
-    if (options.out_of_time && options.out_of_time()) return {};
+    if (has_run_out(options.out_of_time)) return {};
     if (edges_between(occluders, cell.source, cell.target) > most_edges) return {};
     all.push_back({std::move(cell.source), std::move(cell.target)});
   }
@@ -154,8 +155,7 @@ Event_counters decide_the_rest(const Occluders& occluders, const std::vector<Wea
   std::size_t all_edges = 0;
   for (std::uint32_t piece = 0; piece < occluders.scene().pieces().size(); ++piece) all_edges += occluders.size(piece);
   Event_counters counters;
-  for (std::size_t most = few_events; !found.undecided.empty() && !(events.out_of_time && events.out_of_time());
-       most = 16 * most) {
+  for (std::size_t most = few_events; !found.undecided.empty() && !has_run_out(events.out_of_time); most = 16 * most) {
     // 1. Events, as many as are soon looked at: where lines touch edges, cells never suffice.
     const bool all = most_edges >= all_edges;
     events.events = all ? std::numeric_limits<std::size_t>::max() : most;
@@ -183,7 +183,7 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
     std::vector<Weakly_visible::Pair> pairs;  // those that stay open, or the one with a sightline
     Event_counters counters;
   };
-  if (found.open.empty() || (options.out_of_time && options.out_of_time())) return {};
+  if (found.open.empty() || has_run_out(options.out_of_time)) return {};
   // 1. The pairs of each face.
   std::vector<Settled> faces;
   for (Weakly_visible::Pair& pair : found.open) {
@@ -199,7 +199,7 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
     for (Weakly_visible::Pair& pair : face.pairs) {
       if (options.progress) options.progress(done.load(), faces.size());
       const Events_answer answer =
-          options.out_of_time && options.out_of_time()
+          has_run_out(options.out_of_time)
               ? Events_answer{}
               : open_pair_by_events(occluders, sources[pair.source], pair, most_edges, options, face.counters);
       if (answer.status == Weak_status::hidden) continue;

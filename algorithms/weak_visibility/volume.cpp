@@ -3,6 +3,7 @@
 #include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/time_limit.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -132,8 +133,7 @@ Weak_volume::Weak_volume(const Polygon_soup& soup,
         "look outwards, or all inwards");
   const std::vector<int> times = times_given(scene);
   for (const Piece& piece : scene.pieces()) {
-    Polygon polygon;
-    for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
+    const Polygon polygon = scene.corner_points(piece);
     faces_.push_back({std::move(polygon), scene.file_coefficients(piece.support), times[faces_.size()]});
   }
   Polygon corners;
@@ -230,15 +230,14 @@ std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume&
                                           Weakly_visible& found, const std::function<bool()>& out_of_time) {
   std::vector<Face_id> within, unasked;
   for (const Piece& piece : scene.pieces()) {
-    if (!unasked.empty() || (out_of_time && out_of_time())) {
+    if (!unasked.empty() || has_run_out(out_of_time)) {
       unasked.push_back(piece.face);
       continue;
     }
     if ((!within.empty() && within.back() == piece.face) ||
         std::binary_search(found.visible.begin(), found.visible.end(), piece.face))
       continue;
-    std::vector<Exact_point> polygon;
-    for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
+    const std::vector<Exact_point> polygon = scene.corner_points(piece);
     if (volume.sees_from_within(polygon, false) || (two_sided && volume.sees_from_within(polygon, true)))
       within.push_back(piece.face);
   }

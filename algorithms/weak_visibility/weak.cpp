@@ -3,6 +3,7 @@
 #include <sightline/algorithms/weak_visibility/search/likely_blockers.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
 #include <utility>
@@ -32,7 +33,7 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
     });
   const auto answer_of = [&](std::uint32_t piece, std::uint32_t s, Weak_counters& counters) {
     const auto& [source, plane] = sources[s];
-    if (options.search.out_of_time && options.search.out_of_time()) return nothing_known();
+    if (has_run_out(options.search.out_of_time)) return nothing_known();
     const int towards = occluders.side_of(piece, plane), back = side(occluders.plane(piece), source);
     if (towards <= 0 || back == 0 || (back < 0 && !options.search.two_sided)) {
       ++counters.targets;

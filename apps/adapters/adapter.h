@@ -28,12 +28,6 @@ inline judge::Query read_query(const std::string& file) {
   return judge::query_from_json(nlohmann::json::parse(in));
 }
 
-inline std::vector<Exact_point> corners(const Scene& scene, const Piece& piece) {
-  std::vector<Exact_point> points;
-  for (const Piece_corner& corner : scene.corners(piece)) points.push_back(scene.position(corner.point));
-  return points;
-}
-
 inline void write_answer(const Task& task, const judge::Json& answer) {
   std::ofstream out(task.answer);
   out << answer.dump() << '\n';

@@ -30,7 +30,7 @@ class Traced_scene {
     std::vector<std::array<unsigned, 3>> triangles;
     for (const Piece& piece : scene.pieces()) {
       const auto first = static_cast<unsigned>(points.size());
-      for (const Exact_point& p : adapter::corners(scene, piece)) {
+      for (const Exact_point& p : scene.corner_points(piece)) {
         const Vector at = near(p);
         points.push_back({static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
       }

@@ -45,7 +45,7 @@ void solve(const adapter::Task& task) {
       std::vector<Traits::Surface_3> triangles;
       for (const Piece& piece : task.scene.pieces()) {
         Polygon polygon;  // as the eye has it, with z along the cone
-        for (const Exact_point& p : adapter::corners(task.scene, piece)) {
+        for (const Exact_point& p : task.scene.corner_points(piece)) {
           const auto along = [&](std::size_t k) { return Rational(p[k] - task.query.eye[k]); };
           polygon.push_back({along(x), along(y), Rational(sense * along(axis))});
         }

@@ -118,6 +118,7 @@ static const std::vector<Own_option> own_options{{"--eye", {"order", "see", "ren
                                                  {"--random", {"trace"}},
                                                  {"--ray-file", {"trace"}},
                                                  {"--svg", {"weak", "render"}},
+                                                 {"--sightlines", {"pvs"}},
                                                  {"--colours", {"render"}},
                                                  {"--alpha", {"render"}},
                                                  {"--look", {"render"}},

@@ -395,7 +395,7 @@ void add_fuzz(Command program) {
       .reads_file();
   command.add_option("--check", a->check, "only this check, beside 'certificate'");
   command.add_option("--out", a->out, "the folder for the smallest failing scene").check(not_empty()).show_default();
-  command.add_option("--json", a->json, "write the summary as JSON to this file, - for standard output").writes_file();
+  add_json_option(command, a->json, "the summary");
   command.footer(
       "Commands and their checks; each answer is also checked by itself ('certificate'):" + list_of_checks() +
       "\nExit codes: 0 nothing found, 1 something disagrees or a case does not end, 2 usage, 3 bad input."

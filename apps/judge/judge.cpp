@@ -382,7 +382,7 @@ void add_judge(Command program) {
   command.add_option("--threads", a->threads, "for the truth; 0: one for each processor")
       .check(range(0, 1024))
       .show_default();
-  command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
+  add_json_option(command, a->json);
   command.add_option("--html", a->html, "write a page to look at").writes_file(".html");
   command
       .add_option("--keep", a->keep, "a folder for the smallest case that breaks the contract: scene, query and answer")

@@ -69,9 +69,7 @@ Sources sources_of(const Source_arguments& arguments, const Common& common, cons
     check_face(scene, face, "--from-face");
     for (const Piece& piece : scene.pieces()) {
       if (piece.face != face) continue;
-      std::vector<Exact_point> points;
-      for (const Piece_corner& corner : scene.corners(piece)) points.push_back(scene.position(corner.point));
-      add_source(sources, occluders, points);
+      add_source(sources, occluders, scene.corner_points(piece));
     }
   }
   for (const std::string& text : arguments.polygons) {

@@ -255,7 +255,7 @@ void add_report(Command program) {
                   "of scenes: a file with the query to ask, as --keep writes it, and one question in --questions")
       .reads_file();
   command.add_option("--html", a->html, "write the page to look at").writes_file(".html");
-  command.add_option("--json", a->json, "write all rows as JSON to this file, - for standard output").writes_file();
+  add_json_option(command, a->json, "all rows");
   command.add_option("--svg", a->svg, "write a picture: seconds against errors").writes_file(".svg");
   command.add_option("--questions", a->questions, "which, with commas; by default all")
       .delimiter(',')

@@ -289,11 +289,9 @@ std::vector<Shape> shapes_of(const std::vector<Shown>& shown, const Camera& came
 /// The n-th shape of face 7 has the id face-7-n.
 void draw_shapes(Svg& svg, const Scene& scene, const std::vector<Shape>& shapes, std::size_t lights, bool shaded) {
   std::map<Face_id, std::size_t> of_face;
-  std::vector<Exact_point> corners;
   for (const auto& [first, polygons] : shapes) {
     const Piece& piece = scene.pieces()[first->piece];
-    corners.clear();
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    std::vector<Exact_point> corners = scene.corner_points(piece);
     if (first->side == CGAL::NEGATIVE) std::reverse(corners.begin(), corners.end());
     const Look look = look_of(scene, *first, lights, shaded ? shade_of(corners) : 0);
     svg.shape(polygons, look.fill, look.fill, 0.4, fmt::format("face-{}-{}", piece.face, ++of_face[piece.face]),

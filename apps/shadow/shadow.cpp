@@ -59,10 +59,7 @@ Grouped_polygons drawing_of(const Scene& scene, const std::vector<Shadows>& all)
     }
     for (std::uint32_t i = 0; i < turned.size(); ++i) {
       if (turned[i]) continue;
-      corners.clear();
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[i]))
-        corners.push_back(scene.position(corner.point));
-      polygons.add_polygon(away, scene.pieces()[i].face, corners);
+      polygons.add_polygon(away, scene.pieces()[i].face, scene.corner_points(scene.pieces()[i]));
     }
   }
   return polygons;

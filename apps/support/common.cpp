@@ -56,6 +56,11 @@ Polygon_soup Scene_format::read(const std::string& file, const Read_options& opt
   }
 }
 
+Option add_json_option(Command command, std::string& file, const std::string& what) {
+  return command.add_option("--json", file, fmt::format("write {} as JSON to this file, - for standard output", what))
+      .writes_file();
+}
+
 void Common::add_to(Command of) {
   command = of;
   of.add_option("SCENE", scene,
@@ -65,7 +70,7 @@ void Common::add_to(Command of) {
       .required()
       .reads_file();
   format.add_to(of);
-  of.add_option("--json", json, "write everything as JSON to this file, - for standard output").writes_file();
+  add_json_option(of, json);
   of.add_option("--coordinates", coordinates,
                 "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
       .check(one_of({"exact", "double"}))
@@ -114,6 +119,11 @@ Exact_point parse_point(const std::string& text, const std::string& option) {
   const std::vector<Rational> numbers = parse_numbers(text, wanted);
   if (numbers.size() != 3) throw Usage_error(wanted + ", not " + sightline::quoted(text));
   return {numbers[0], numbers[1], numbers[2]};
+}
+
+Option add_eye_option(Command command, std::string& eye) {
+  return command.add_option("--eye", eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
+      .check(not_empty());
 }
 
 Exact_point eye_of(const std::string& text, const Scene& scene) {

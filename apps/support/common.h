@@ -59,11 +59,16 @@ struct Common {
   Report within_budget(Progress& bar) const;
 };
 
+/// Adds --json FILE; `what` says what of the command's is in it.
+Option add_json_option(Command command, std::string& file, const std::string& what = "everything");
+
 /// Numbers with commas between them, exact decimals or p/q. Errors: Usage_error that begins with `wanted`.
 std::vector<Rational> parse_numbers(const std::string& text, const std::string& wanted);
 /// "X,Y,Z" with exact decimals or p/q. Errors: Usage_error naming the option.
 Exact_point parse_point(const std::string& text, const std::string& option);
 
+/// Adds --eye X,Y,Z.
+Option add_eye_option(Command command, std::string& eye);
 /// The eye that --eye names, or, where it is empty, a place outside the scene's box from which all of it is seen.
 Exact_point eye_of(const std::string& text, const Scene& scene);
 

@@ -19,12 +19,8 @@ Option add_mesh_option(Command command, std::string& file, const std::string& wh
 
 void add_pieces(Grouped_polygons& polygons, const Scene& scene,
                 const std::function<std::uint32_t(std::uint32_t piece)>& group_of) {
-  std::vector<Exact_point> corners;
-  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
-    corners.clear();
-    for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) corners.push_back(scene.position(corner.point));
-    polygons.add_polygon(group_of(i), scene.pieces()[i].face, corners);
-  }
+  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i)
+    polygons.add_polygon(group_of(i), scene.pieces()[i].face, scene.corner_points(scene.pieces()[i]));
 }
 
 void write_drawings(const std::string& obj, const std::string& mesh, const Grouped_polygons& polygons) {

@@ -3,6 +3,7 @@
 #include "page_sources.h"
 
 #include <sightline/harness/report/page.h>
+#include <sightline/io/base64.h>
 
 #include <algorithm>
 #include <bit>
@@ -16,20 +17,6 @@ namespace sightline::app {
 // ---- Numbers in few bytes
 
 namespace {
-
-constexpr char base64_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-std::string base64(const std::string& bytes) {
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : base64_digits[three >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
 
 /// Each number in so many bytes, the lowest first.
 std::string little_endian(const std::vector<std::uint32_t>& numbers, std::size_t bytes) {
@@ -217,12 +204,9 @@ void Page::add_polygon(std::uint32_t face, const std::vector<Exact_point>& corne
 }
 
 void Page::add_pieces(const Scene& scene, const std::function<std::uint32_t(std::uint32_t)>& group_of) {
-  std::vector<Exact_point> corners;
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
     const Piece& piece = scene.pieces()[i];
-    corners.clear();
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
-    add_polygon(piece.face, corners, group_of ? group_of(i) : 0);
+    add_polygon(piece.face, scene.corner_points(piece), group_of ? group_of(i) : 0);
   }
 }
 

@@ -71,8 +71,7 @@ std::vector<Tint> tints_of(const Tint_arguments& arguments, const std::string& s
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
     if (progress) progress(0, scene.pieces().size());
     const Piece& piece = scene.pieces()[i];
-    std::vector<Exact_point> corners;
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    const std::vector<Exact_point> corners = scene.corner_points(piece);
     const double shade = lit ? shade_of(corners) : 0;
     Tint& tint = tints.emplace_back(Tint{{}, arguments.alpha});
     if (const std::optional<Own_tint>& given = own[piece.face]) {

@@ -22,8 +22,7 @@ namespace {
 std::vector<Exact_point> a_piece(const Scene& scene, std::uint64_t seed) {
   std::vector<Exact_point> points;
   if (scene.pieces().empty()) return points;
-  for (const Piece_corner& corner : scene.corners(scene.pieces()[seed % scene.pieces().size()]))
-    points.push_back(scene.position(corner.point));
+  points = scene.corner_points(scene.pieces()[seed % scene.pieces().size()]);
   return points;
 }
 

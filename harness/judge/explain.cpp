@@ -46,13 +46,6 @@ std::string face_words(Face_id face) { return "face " + std::to_string(face); }
 
 // ---- Convex polygons
 
-Exact_point middle(const Polygon& polygon) {
-  Exact_point sum{0, 0, 0};
-  for (const Exact_point& p : polygon)
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k] / static_cast<long>(polygon.size());
-  return sum;
-}
-
 /// The part where the normal's product with p - origin is not negative.
 Polygon clipped(const Polygon& polygon, const certificate_check::Integer_vector& normal, const Exact_point& origin) {
   Polygon kept;
@@ -89,7 +82,7 @@ std::vector<Flat_piece> pieces_of(const Scene& scene) {
   std::vector<Flat_piece> pieces;
   for (const Piece& piece : scene.pieces()) {
     Flat_piece flat{piece.face, piece.support.id(), {}, {}};
-    for (const Piece_corner& corner : scene.corners(piece)) flat.corners.push_back(scene.position(corner.point));
+    flat.corners = scene.corner_points(piece);
     flat.plane = {newell_normal(flat.corners), flat.corners[0]};
     pieces.push_back(std::move(flat));
   }
@@ -132,7 +125,7 @@ std::optional<Refutation> hidden_face(const std::vector<Flat_piece>& pieces, con
                                       bool two_sided, const std::string& looker) {
   for (const Flat_piece& piece : pieces) {
     if (piece.face != face) continue;
-    Refutation line{face, from, middle(piece.corners), {}, {}, {}};
+    Refutation line{face, from, middle_of(piece.corners), {}, {}, {}};
     const int side = piece.plane.side(from);
     if (side == 0 || (side < 0 && !two_sided)) {
       line.words = looker + (side == 0 ? " is in the plane of " : " is behind ") + face_words(face);
@@ -195,7 +188,7 @@ Explanation explain_seen(const Polygon_soup& soup, const Query& query, const Gra
       missing += angle;
       if (angle <= largest) continue;
       largest = angle;
-      const Exact_point to = middle(part);
+      const Exact_point to = middle_of(part);
       of_missing = {
           face,
           query.eye,
@@ -262,7 +255,7 @@ Explanation explain_order(const Polygon_soup& soup, const Query& query, const An
       wrong += angle;
       if (angle <= largest) continue;
       largest = angle;
-      const Exact_point to = middle(part);
+      const Exact_point to = middle_of(part);
       why.refutation = {earlier,
                         query.eye,
                         to,
@@ -275,7 +268,7 @@ Explanation explain_order(const Polygon_soup& soup, const Query& query, const An
   }
   for (const Face_id face : grade.wrong_hidden) {
     if (why.refutation || faces[face].empty() || in_parts[face]) continue;
-    why.refutation = {face, query.eye, middle(faces[face][0]->corners),
+    why.refutation = {face, query.eye, middle_of(faces[face][0]->corners),
                       {},   {},        face_words(face) + " is missing in the order"};
   }
   why.share = share_of_directions(wrong);
@@ -312,7 +305,7 @@ std::optional<Refutation> sightline_to(const Scene& scene, const Query& query, c
 /// A line to a face that no point of the source sees: behind the source, or past what hides it from a point of that,
 /// the middle where it tells, to a point in front of the source.
 std::optional<Refutation> weakly_hidden_face(const std::vector<Flat_piece>& pieces, const Query& query, Face_id face) {
-  const Exact_point from = middle(query.source);
+  const Exact_point from = middle_of(query.source);
   const certificate_check::Plane plane{newell_normal(query.source), from};
   const Flat_piece* last = nullptr;
   bool behind = true;
@@ -323,7 +316,7 @@ std::optional<Refutation> weakly_hidden_face(const std::vector<Flat_piece>& piec
   }
   if (last == nullptr) return std::nullopt;
   if (behind)
-    return Refutation{face, from, middle(last->corners),
+    return Refutation{face, from, middle_of(last->corners),
                       {},   {},   face_words(face) + " is behind the source, or in its plane"};
   // Of a face that the source's plane cuts, what is in front of that: to what is behind it nothing need be in the way.
   std::vector<Flat_piece> in_front;

@@ -29,8 +29,7 @@ Truth with_nothing_hidden(const Polygon_soup& soup, const Query& query) {
   const Scene scene(soup);
   std::vector<bool> in_front(soup.face_count()), kept(soup.face_count());
   for (const Piece& piece : scene.pieces()) {
-    certificate_check::Polygon corners;
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    const certificate_check::Polygon corners = scene.corner_points(piece);
     const int side = certificate_check::Plane{certificate_check::newell_normal(corners), corners[0]}.side(query.eye);
     kept[piece.face] = true;
     in_front[piece.face] = side > 0 || (query.two_sided && side < 0);

@@ -17,8 +17,7 @@ Order_truth::Order_truth(const Scene& scene, const Exact_point& eye, bool two_si
   for (const Piece& piece : scene.pieces()) {
     Face& face = faces_[piece.face];
     if (face.pieces.empty()) face.set_plane(scene.file_coefficients(piece.support));
-    order_check::Polygon& polygon = face.pieces.emplace_back();
-    for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
+    const order_check::Polygon& polygon = face.pieces.emplace_back(scene.corner_points(piece));
     const int side = order_check::Plane{order_check::newell_normal(polygon), polygon[0]}.side(eye);
     face.required = side > 0 || (two_sided && side < 0);
   }

@@ -68,12 +68,6 @@ Plane plane_of(const Corners& corners) {
   return plane;
 }
 
-Corners corners_of(const Scene& scene, const Piece& piece) {
-  Corners corners;
-  for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
-  return corners;
-}
-
 /// A ray meets a closed segment: as weights of its ends.
 bool meets(const Surds& eye, const Surds& ray, const Edge& edge, std::array<Surd, 2>& weights) {
   const Surds a = minus(surds(edge[0]), eye), b = minus(surds(edge[1]), eye), normal = cross(a, b);
@@ -113,7 +107,7 @@ bool is_event_ray(const Scene& scene, const Surds& eye, const Surds& ray, const 
   const Surd height = plane.height(eye), towards = dot(surds(plane.normal), ray);
   std::set<std::uint32_t> planes;
   for (const Piece& piece : scene.pieces()) {
-    const Plane other = plane_of(corners_of(scene, piece));
+    const Plane other = plane_of(scene.corner_points(piece));
     if (is_zero(cross(other.normal, plane.normal))) continue;
     if ((other.height(eye) * towards - height * dot(surds(other.normal), ray)).sign() == 0)
       planes.insert(piece.support.id());
@@ -172,7 +166,7 @@ std::string flaw_of_change(const Scene& scene, const Exact_point& from, const Ex
   const Surds eye = eye_at(from, way, t);
   std::vector<Corners> pieces;
   for (const Piece& piece : scene.pieces())
-    if (piece.face == change.face) pieces.push_back(corners_of(scene, piece));
+    if (piece.face == change.face) pieces.push_back(scene.corner_points(piece));
   // 1. The eye in a plane, or on a face.
   if (change.kind == Along_kind::plane || change.kind == Along_kind::contact) {
     if (!change.edges.empty()) return "a horizon or a contact names edges";
@@ -186,14 +180,14 @@ std::string flaw_of_change(const Scene& scene, const Exact_point& from, const Ex
     Exact_point p;
     for (std::size_t k = 0; k < 3; ++k) p[k] = from[k] + *moment * way[k];
     return std::any_of(scene.pieces().begin(), scene.pieces().end(),
-                       [&](const Piece& piece) { return is_on(corners_of(scene, piece), p); })
+                       [&](const Piece& piece) { return is_on(scene.corner_points(piece), p); })
                ? ""
                : "at a contact the eye is on no face";
   }
   // 2. Edges, all different; in a plane or not.
   std::vector<Edge> edges;
   for (const auto& [piece, corner] : change.edges) {
-    const Corners corners = corners_of(scene, scene.pieces()[piece]);
+    const Corners corners = scene.corner_points(scene.pieces()[piece]);
     edges.push_back({corners[corner], corners[(corner + 1) % corners.size()]});
   }
   if (edges.size() > 3) return "an event names more than three edges";
@@ -220,7 +214,7 @@ std::string flaw_of_change(const Scene& scene, const Exact_point& from, const Ex
     }
     if (edges.size() < 3)
       for (const Piece& other : scene.pieces()) {
-        const Plane plane = plane_of(face), its = plane_of(corners_of(scene, other));
+        const Plane plane = plane_of(face), its = plane_of(scene.corner_points(other));
         const Surd height = plane.height(eye), its_height = its.height(eye);
         Surds& normal = normals.emplace_back();
         for (std::size_t k = 0; k < 3; ++k)
@@ -250,13 +244,13 @@ bool meets_three(const Scene& scene, const Exact_point& from, const Exact_point&
   using namespace moving_edges;
   const Exact_point way = minus(to, from);
   const Surds eye = eye_at(from, way, t);
-  const Corners face = corners_of(scene, scene.pieces()[piece]);
+  const Corners face = scene.corner_points(scene.pieces()[piece]);
   const auto normal_of = [&](const Edge& edge) {
     return cross(minus(surds(edge[0]), eye), minus(surds(edge[1]), eye));
   };
   std::array<Surds, 2> planes;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Corners corners = corners_of(scene, scene.pieces()[crossed[k][0]]);
+    const Corners corners = scene.corner_points(scene.pieces()[crossed[k][0]]);
     planes[k] = normal_of({corners[crossed[k][1]], corners[(crossed[k][1] + 1) % corners.size()]});
   }
   const Surds line = cross(planes[0], planes[1]);
@@ -265,7 +259,7 @@ bool meets_three(const Scene& scene, const Exact_point& from, const Exact_point&
     // 1. The edges that it meets: of each line one, but of those whose plane holds the way, or that it goes along.
     std::vector<Edge> met;
     for (const Piece& other : scene.pieces()) {
-      const Corners corners = corners_of(scene, other);
+      const Corners corners = scene.corner_points(other);
       const Plane plane = plane_of(corners);
       if (plane.height(from) == 0 && plane.height(to) == 0) continue;
       for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -14,11 +14,11 @@
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/see_lines.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
-#include <ctime>
 #include <optional>
 #include <vector>
 
@@ -30,8 +30,6 @@ constexpr double slack = 0.5;
 #else
 constexpr double slack = 0.05;
 #endif
-
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // ---- From a point
 

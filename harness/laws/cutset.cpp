@@ -41,9 +41,7 @@ std::string flaw_along(const Scene& scene, const Traits& traits, const std::vect
   const Face_graph graph(scene);
   Cut_set_tracker<Traits> tracker(traits, graph);
   std::vector<generate::Points> nodes(graph.size());
-  for (std::uint32_t i = 0; i < graph.size(); ++i)
-    for (const Piece_corner& corner : scene.corners(scene.pieces()[graph.piece(i)]))
-      nodes[i].push_back(scene.position(corner.point));
+  for (std::uint32_t i = 0; i < graph.size(); ++i) nodes[i] = scene.corner_points(scene.pieces()[graph.piece(i)]);
   for (std::size_t frame = 0; frame < path.size(); ++frame) {
     tracker.move_to(path[frame]);
     std::vector<bool> on(graph.size()), in_cut(graph.edges().size());

@@ -30,8 +30,7 @@ int Flat_face::side_within(const Exact_point& p) const {
 std::vector<Flat_face> flat_faces_of(const Scene& scene) {
   std::vector<Flat_face> faces;
   for (const Piece& piece : scene.pieces()) {
-    Points corners;
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    const Points corners = scene.corner_points(piece);
     faces.emplace_back(std::move(corners));
   }
   return faces;

@@ -4,6 +4,7 @@
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/scenes.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
 #include <array>
@@ -106,7 +107,7 @@ std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& options,
   std::size_t unfit = 0;  // in a row
   for (;;) {
     if (options.at) options.at(place);
-    if ((options.scenes != 0 && drawn >= options.scenes) || (options.out_of_time && options.out_of_time())) break;
+    if ((options.scenes != 0 && drawn >= options.scenes) || has_run_out(options.out_of_time)) break;
     const generate::Family& family = *families[random.below(families.size())];
     const Fuzz_case which = draw_case(family, random);
     if (options.begin) options.begin(which);

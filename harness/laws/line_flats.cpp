@@ -21,7 +21,7 @@ Flat_pieces flat_pieces(const Scene& scene) {
   Flat_pieces flats;
   for (const Piece& piece : scene.pieces()) {
     Flat_piece flat{{}, {}, {}, piece.face};
-    for (const Piece_corner& corner : scene.corners(piece)) flat.corners.push_back(scene.position(corner.point));
+    flat.corners = scene.corner_points(piece);
     const Points& c = flat.corners;
     flat.plane.normal = cross(minus(c[1], c[0]), minus(c[2], c[0]));
     flat.plane.offset = dot(flat.plane.normal, c[0]);

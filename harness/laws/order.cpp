@@ -195,8 +195,7 @@ Outcome by_definition(const Posed_scene& posed, const Answer& answer) {
   Answer truth;
   truth.labels.assign(posed.soup.face_count(), Answer::none);
   for (const Piece& piece : scene.pieces()) {
-    Points corners;
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    const Points corners = scene.corner_points(piece);
     Exact_point normal{0, 0, 0};
     for (std::size_t k = 0; k < corners.size(); ++k)
       normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));

@@ -1,6 +1,7 @@
 #include <sightline/harness/laws/reduce.h>
 
 #include <sightline/harness/generate/weak_draft.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
 #include <map>
@@ -83,7 +84,7 @@ Reduced Reducer::run() {
 }
 
 bool Reducer::still_fails(const Draft& draft) {
-  if (result_.tests >= options_.most_tests || (options_.out_of_time && options_.out_of_time())) exhausted_ = true;
+  if (result_.tests >= options_.most_tests || has_run_out(options_.out_of_time)) exhausted_ = true;
   if (exhausted_) return false;
   ++result_.tests;
   return fails_(draft.scene(given_.name));

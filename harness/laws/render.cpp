@@ -201,8 +201,7 @@ Outcome by_newell(const Seen& seen) {
 Outcome heedless(const Seen& seen) {
   std::vector<Flat_face> faces;
   for (const Piece& piece : seen.scene.pieces()) {
-    generate::Points corners;
-    for (const Piece_corner& corner : seen.scene.corners(piece)) corners.push_back(seen.scene.position(corner.point));
+    const generate::Points corners = seen.scene.corner_points(piece);
     faces.emplace_back(std::move(corners));
   }
   const Exact_point eye = seen.pixels.eye, look = exact(seen.pixels.look);

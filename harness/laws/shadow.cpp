@@ -22,13 +22,6 @@ namespace sightline::harness {
 
 namespace shadow_subject {
 
-std::vector<Exact_point> corners_of(const Scene& scene, std::uint32_t piece) {
-  std::vector<Exact_point> corners;
-  for (const Piece_corner& corner : scene.corners(scene.pieces()[piece]))
-    corners.push_back(scene.position(corner.point));
-  return corners;
-}
-
 /// An axis along which a piece has area.
 std::size_t axis_of(const std::vector<Exact_point>& corners) {
   for (std::size_t axis = 0; axis < 2; ++axis)
@@ -43,14 +36,6 @@ bool is_convex(const std::vector<Exact_point>& corners, std::size_t axis, int se
     if (sgn(area_of(turn, axis)) * sense < 0) return false;
   }
   return true;
-}
-
-Exact_point middle_of(const std::vector<Exact_point>& corners) {
-  Exact_point sum{0, 0, 0};
-  for (const Exact_point& p : corners)
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k];
-  for (Rational& x : sum) x /= static_cast<long>(corners.size());
-  return sum;
 }
 
 /// The side of a polygon on which the light is: the front's is positive.
@@ -125,7 +110,7 @@ std::optional<int> winding_at(const Polygon_soup& surface, const Scene& scene, c
 std::array<Exact_point, 2> box_about(const Scene& scene) {
   std::array<std::vector<Rational>, 3> all;
   for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
-    for (const Exact_point& p : corners_of(scene, piece))
+    for (const Exact_point& p : scene.corner_points(scene.pieces()[piece]))
       for (std::size_t k = 0; k < 3; ++k) all[k].push_back(p[k]);
   std::array<Exact_point, 2> box;
   std::vector<Rational> sides;
@@ -202,9 +187,11 @@ Check as_seen() {
             std::map<std::uint32_t, Rational> seen, lit;
             for (const auto& part : surface.parts)
               if (part.piece != surface.nothing && view.eye_side(part.piece) == CGAL::POSITIVE)
-                seen[part.piece] += area_of(vertices(view, surface, part), axis_of(corners_of(scene, part.piece)));
+                seen[part.piece] +=
+                    area_of(vertices(view, surface, part), axis_of(scene.corner_points(scene.pieces()[part.piece])));
             for (const Shadow_part& part : made.parts)
-              if (part.is_lit()) lit[part.piece] += area_of(part.vertices, axis_of(corners_of(scene, part.piece)));
+              if (part.is_lit())
+                lit[part.piece] += area_of(part.vertices, axis_of(scene.corner_points(scene.pieces()[part.piece])));
             std::map<std::uint32_t, int> in_plane;
             for (const Piece& piece : scene.pieces()) ++in_plane[piece.support.id()];
             for (const auto& [piece, area] : seen) {
@@ -236,7 +223,7 @@ std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scen
   std::map<std::uint32_t, Rational> area;
   for (const Shadow_part& part : shadows.parts) {
     const Piece& piece = scene.pieces()[part.piece];
-    const std::vector<Exact_point> whole = corners_of(scene, part.piece);
+    const std::vector<Exact_point> whole = scene.corner_points(piece);
     const std::size_t axis = axis_of(whole);
     const Rational of_whole = area_of(whole, axis), of_part = area_of(part.vertices, axis);
     const std::string name = "a part of face " + std::to_string(piece.face);
@@ -254,14 +241,14 @@ std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scen
                   : ": face " + std::to_string(scene.pieces()[part.by].face) + " is not the first on the way");
   }
   for (const auto& [piece, twice] : area) {
-    const std::vector<Exact_point> whole = corners_of(scene, piece);
+    const std::vector<Exact_point> whole = scene.corner_points(scene.pieces()[piece]);
     if (twice != area_of(whole, axis_of(whole))) return "parts do not tile " + face_name(scene.pieces()[piece].face);
   }
 
   std::set<Face_id> kept, turned, lit, away;
   for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
     const Face_id face = scene.pieces()[piece].face;
-    const Sign side = side_of(corners_of(scene, piece), light, is_sun);
+    const Sign side = side_of(scene.corner_points(scene.pieces()[piece]), light, is_sun);
     const bool is_asked = side == CGAL::POSITIVE || (two_sided && side == CGAL::NEGATIVE);
     if (is_asked != area.contains(piece))
       return face_name(face) +

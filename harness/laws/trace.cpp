@@ -425,7 +425,7 @@ std::vector<Face_hit> hits_by_definition(const Polygon_soup& soup, const Scene& 
   for (const Piece& piece : scene.pieces()) {
     if (!skew.contains(piece.face)) continue;
     Loops loops(1);
-    for (const Piece_corner& corner : scene.corners(piece)) loops[0].push_back(scene.position(corner.point));
+    loops[0] = scene.corner_points(piece);
     add_parts(piece.face, loops, ray, parts[piece.face]);
   }
   std::vector<Face_hit> hits;

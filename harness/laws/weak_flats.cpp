@@ -62,8 +62,7 @@ std::vector<Points> cells(const Points& polygon, const std::vector<Level>& plane
 std::vector<Points> polygons(const Scene& scene) {
   std::vector<Points> all;
   for (const Piece& piece : scene.pieces()) {
-    Points& polygon = all.emplace_back();
-    for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
+    all.push_back(scene.corner_points(piece));
   }
   return all;
 }

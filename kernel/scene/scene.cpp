@@ -126,6 +126,13 @@ Scene::Scene(const Polygon_soup& soup) : file_(soup.file) {
 
 Predicates Scene::predicates() const& { return {points(), planes(), incidences_}; }
 
+std::vector<Exact_point> Scene::corner_points(const Piece& piece) const {
+  std::vector<Exact_point> points;
+  points.reserve(piece.size);
+  for (const Piece_corner& corner : corners(piece)) points.push_back(position(corner.point));
+  return points;
+}
+
 Prepared_plane Scene::prepared(Plane plane) const { return predicates().prepare(plane); }
 
 std::array<Rational, 4> Scene::file_coefficients(Plane plane) const {

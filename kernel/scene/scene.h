@@ -67,6 +67,8 @@ class Scene {
   /// The file's coordinates of a point in homogeneous grid coordinates. Pre: h[3] != 0.
   Exact_point position(const std::array<Integer, 4>& h) const { return grid_.position(h); }
   Exact_point position(std::uint32_t point) const { return grid_.position(point); }
+  /// Corners of a piece in file coordinates.
+  std::vector<Exact_point> corner_points(const Piece& piece) const;
   /// The bounding box of all points used by the file, in its coordinates. Pre: there is a point.
   std::array<Exact_point, 2> box() const { return grid_.box(); }
   /// The same of the corners of the faces that are kept. Pre: there is one. Cost: O(corners)

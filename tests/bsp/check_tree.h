@@ -101,7 +101,7 @@ inline void check_tree(const Built& built, std::size_t forced = 0) {
       for (const Exact_point& p : points) projected.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
       return Flat_polygon::hull(projected);
     };
-    const Flat_polygon whole = flat(built.piece_corners(pieces[i]));
+    const Flat_polygon whole = flat(built.scene.corner_points(pieces[i]));
     std::vector<Flat_polygon> missing{whole};
     Rational sum = 0;
     for (const Points& part : parts[i]) {

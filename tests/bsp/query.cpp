@@ -53,7 +53,7 @@ struct Everything {
   std::vector<std::pair<Face_id, Points>> pieces;
   std::vector<std::tuple<Face_id, std::uint32_t, Points>> fragments;
   explicit Everything(const Built& built) {
-    for (const Piece& piece : built.scene.pieces()) pieces.emplace_back(piece.face, built.piece_corners(piece));
+    for (const Piece& piece : built.scene.pieces()) pieces.emplace_back(piece.face, built.scene.corner_points(piece));
     for (const Drawn& f : built.tree.fragments)
       fragments.emplace_back(built.traits.face(f.polygon.piece), f.number, built.corners(f.polygon));
   }
@@ -113,7 +113,7 @@ Exact_ray random_ray(const Built& built, Random& random) {
   Exact_ray ray{random_eye(built, random), {}};
   const auto& pieces = built.scene.pieces();
   const Points c = pieces.empty() ? Points{at(0, 0, 0), at(1, 0, 0), at(0, 1, 0)}
-                                  : built.piece_corners(pieces[random.below(pieces.size())]);
+                                  : built.scene.corner_points(pieces[random.below(pieces.size())]);
   switch (random.below(6)) {
     case 0: ray.direction = minus(c[0], ray.origin); break;                    // to a vertex
     case 1: ray.direction = minus(centroid({c[0], c[1]}), ray.origin); break;  // to an edge
@@ -355,7 +355,7 @@ TEST(Query, a_point_is_in_a_convex_body_iff_it_is_behind_all_its_faces) {
     if (k % 3 == 0) p = centroid({p, at(0, 0, 0), at(0, 0, 0), at(0, 0, 0)});
     bool inside = true, outside = false;
     for (const Piece& piece : built.scene.pieces()) {
-      const Points corners = built.piece_corners(piece);
+      const Points corners = built.scene.corner_points(piece);
       const Rational side = dot(normal_of(corners), minus(p, corners[0]));
       inside &= side < 0;
       outside |= side > 0;

@@ -91,11 +91,6 @@ struct Built {
     for (const auto& corner : polygon) points.push_back(traits.position(*corner.vertex));
     return points;
   }
-  Points piece_corners(const Piece& piece) const {
-    Points points;
-    for (const Piece_corner& corner : scene.corners(piece)) points.push_back(scene.position(corner.point));
-    return points;
-  }
   /// Fragments as a traversal visits them.
   std::vector<const Drawn*> order(const Exact_point& eye, Direction direction = Direction::back_to_front) const {
     std::vector<const Drawn*> visited;
@@ -126,7 +121,8 @@ inline Order_certificate certificate_of(const Built& built, const Exact_point& e
   for (const Piece& piece : built.scene.pieces())
     if (piece.number > 0) cut.insert(piece.face);
   for (const Piece& piece : built.scene.pieces())
-    if (cut.count(piece.face)) certificate.pieces.push_back({piece.face, piece.number, built.piece_corners(piece)});
+    if (cut.count(piece.face))
+      certificate.pieces.push_back({piece.face, piece.number, built.scene.corner_points(piece)});
   for (const Set_aside& entry : built.scene.set_aside()) certificate.set_aside.push_back({entry.face, entry.why});
   return certificate;
 }
@@ -183,7 +179,7 @@ inline Exact_point random_eye(const Built& built, Random& random) {
     return p;
   };
   if (pieces.empty()) return anywhere();
-  const auto piece = [&] { return built.piece_corners(pieces[random.below(pieces.size())]); };
+  const auto piece = [&] { return built.scene.corner_points(pieces[random.below(pieces.size())]); };
   switch (random.below(7)) {
     case 0: {
       const Points corners = piece();

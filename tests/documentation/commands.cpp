@@ -34,6 +34,7 @@ const std::map<std::string, std::string> not_drawn{
      "of id_e1m7.geom.bsp, which is not ours; `compare` of it, a minute, says the command"},
     {"algorithms/priority/graph.svg", "drawn by hand"},
     {"apps/page/pages.png", "two browsers' windows"},
+    {"harness/compare/weak.svg", "it plots seconds"},
     {"harness/report/report.svg", "half a minute, and it plots seconds"},
     {"python/window.png", "drawn by matplotlib, which is not everywhere"},
 };

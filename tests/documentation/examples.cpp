@@ -140,8 +140,7 @@ std::vector<Order_fragment> whole_faces(const Scene& scene, const std::vector<Fa
     Order_fragment& fragment = fragments.emplace_back();
     fragment.face = face;
     fragment.piece = 0;
-    for (const Piece_corner& corner : scene.corners(scene.pieces()[face]))
-      fragment.vertices.push_back(scene.position(corner.point));
+    fragment.vertices = scene.corner_points(scene.pieces()[face]);
   }
   return fragments;
 }

@@ -38,7 +38,7 @@ inline void cover(std::string_view bytes) {
     Order_fragment part;
     part.face = piece.face;
     part.piece = piece.number;
-    for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
+    part.vertices = scene.corner_points(piece);
     if (count[piece.face] > 1 || !is_planar(soup, piece.face)) cut.push_back(part);
     all.push_back(std::move(part));
   }

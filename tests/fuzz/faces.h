@@ -156,7 +156,7 @@ inline void try_without_spikes(const Polygon_soup& soup, Face_id face, bool kept
   Covering drawn;
   for (const Piece& piece : scene.pieces()) {
     Order_fragment& fragment = drawn.fragments.emplace_back();
-    for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
+    fragment.vertices = scene.corner_points(piece);
   }
   const bool accepted = passes([&] { certificate_check::check_covering(as_it_is, drawn, 1); });
   require(accepted == kept, kept ? "a face without its spikes is a tiling of it"
@@ -202,8 +202,7 @@ inline void faces(std::string_view bytes) {
   try_reasons(soup, scene);
   std::vector<Outlined> parts(soup.face_count());
   for (const Piece& piece : scene.pieces()) {
-    generate::Points& corners = parts[piece.face].emplace_back();
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    parts[piece.face].push_back(scene.corner_points(piece));
   }
   const std::set<Face_id> skew(scene.non_planar().begin(), scene.non_planar().end());
   std::vector<char> kept(soup.face_count(), 1);

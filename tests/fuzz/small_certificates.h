@@ -208,7 +208,7 @@ inline void try_points_on_edges(generate::Random& random) {
   Outlined parts;
   for (const Piece& piece : scene.pieces()) {
     generate::Points& corners = parts.emplace_back();
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    corners = scene.corner_points(piece);
     std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(random.below(corners.size())),
                 corners.end());
   }

@@ -22,8 +22,7 @@ inline Known_scene known(const Polygon_soup& soup) {
   Known_scene all{soup, std::vector<std::vector<Flat>>(soup.face_count()), std::vector<bool>(soup.face_count()),
                   std::vector<bool>(soup.face_count())};
   for (const Piece& piece : scene.pieces()) {
-    Points corners;
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    const Points corners = scene.corner_points(piece);
     all.parts[piece.face].emplace_back(std::move(corners));
   }
   for (const sightline::Set_aside& entry : scene.set_aside()) {

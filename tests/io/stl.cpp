@@ -3,8 +3,7 @@
 #include "soup_text.h"
 
 #include <sightline/io/binary.h>
-
-#include <ctime>
+#include <sightline/kernel/time_limit.h>
 
 namespace sightline::test {
 namespace {
@@ -72,9 +71,9 @@ TEST(Stl, points_whose_hashes_were_made_to_agree_take_no_longer) {
               " 1 0 endloop endfacet\n";
     }
     text += "endsolid\n";
-    const std::clock_t begin = std::clock();
+    const double begin = processor_seconds();
     EXPECT_EQ(read_scene(text, Format::stl, "scene").point_count(), 30000u);
-    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    return processor_seconds() - begin;
   };
   const Integer power = Integer(1) << 64;
   const double other = seconds(power + 1);

@@ -58,7 +58,7 @@ TEST(Exact_traits, pieces_begin_with_their_corners_on_their_planes_and_inside_th
     const Convex_polygon<Exact_traits> polygon = store.piece(traits, i);
     ASSERT_EQ(polygon.size, 4u);
     EXPECT_EQ(polygon.piece, i);
-    EXPECT_EQ(positions(traits, polygon), corners_of(scene, scene.pieces()[i]));
+    EXPECT_EQ(positions(traits, polygon), scene.corner_points(scene.pieces()[i]));
     for (std::uint32_t k = 0; k < 4; ++k) {
       const auto& corner = polygon.corners[k];
       Predicate_counts on, inside;

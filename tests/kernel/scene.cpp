@@ -101,7 +101,7 @@ TEST(Scene_policy, a_face_with_a_hole_of_either_sense_is_cut_around_it) {
       EXPECT_EQ(scene.counters().with_holes, 1u);
       Vector sum{0, 0, 0};
       for (const Piece& piece : scene.pieces()) {
-        const Vector part = area_vector(corners_of(scene, piece));
+        const Vector part = area_vector(scene.corner_points(piece));
         for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
       }
       const Vector whole = area_vector(loop_of(soup, 0)), gap = area_vector(loop_of(soup, 0, 1));
@@ -171,7 +171,7 @@ TEST(Scene_policy, a_non_planar_face_is_cut_as_its_largest_projection_is) {
   ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
   ASSERT_EQ(scene.pieces().size(), 2u);
   for (const Piece& piece : scene.pieces()) {
-    const std::vector<Exact_point> corners = corners_of(scene, piece);
+    const std::vector<Exact_point> corners = scene.corner_points(piece);
     for (const Point_id p : {1u, 3u})
       EXPECT_NE(std::find(corners.begin(), corners.end(), soup.point(p)), corners.end());
   }
@@ -661,7 +661,7 @@ TEST(Scene_planes, coefficients_in_the_file_and_on_the_grid_are_one_plane) {
     EXPECT_EQ(static_cast<int>(predicates.side(scene.locate(scene.position(p)), plane, counts)), sgn(on_grid));
   }
   for (const Piece& piece : scene.pieces())
-    for (const Exact_point& p : corners_of(scene, piece))
+    for (const Exact_point& p : scene.corner_points(piece))
       EXPECT_EQ(value(scene.file_coefficients(piece.support), p), 0);
   EXPECT_EQ(scene.add_plane({-6, 4, -10, -34}), plane.opposite());
   EXPECT_THROW(scene.add_plane({Integer(1) << 200, 1, 1, 1}), std::overflow_error);

@@ -98,11 +98,6 @@ inline std::vector<Exact_point> loop_of(const Polygon_soup& soup, Face_id face, 
   for (const Point_id p : soup.loop(face, loop)) polygon.push_back(soup.point(p));
   return polygon;
 }
-inline std::vector<Exact_point> corners_of(const Scene& scene, const Piece& piece) {
-  std::vector<Exact_point> polygon;
-  for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
-  return polygon;
-}
 inline Rational value(const std::array<Rational, 4>& h, const Exact_point& p) {
   return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3];
 }
@@ -144,7 +139,7 @@ inline void expect_sound_pieces(const Polygon_soup& soup, const Scene& scene) {
   for (const Piece& piece : scene.pieces()) {
     ASSERT_LT(piece.face, soup.face_count());
     ASSERT_EQ(piece.number, next[piece.face]++);
-    const std::vector<Exact_point> polygon = corners_of(scene, piece);
+    const std::vector<Exact_point> polygon = scene.corner_points(piece);
     const std::size_t n = polygon.size();
     ASSERT_GE(n, 3u);
     std::vector<Exact_point> own;
@@ -180,7 +175,7 @@ inline void expect_sound_pieces(const Polygon_soup& soup, const Scene& scene) {
     if (next[f] == 0) continue;
     Chain got;
     for (const Piece& piece : scene.pieces())
-      if (piece.face == f) got.add(corners_of(scene, piece));
+      if (piece.face == f) got.add(scene.corner_points(piece));
     const std::vector<Exact_point> outer = loop_of(soup, f);
     bool bounded = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -169,8 +169,7 @@ using Flats = std::vector<Flat>;
 inline Flats flats_of(const Scene& scene) {
   Flats flats;
   for (const sightline::Piece& piece : scene.pieces()) {
-    Points corners;
-    for (const sightline::Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    const Points corners = scene.corner_points(piece);
     const Exact_point normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     flats.push_back({corners, {normal, dot(normal, corners[0])}, piece.face, piece.number});
   }

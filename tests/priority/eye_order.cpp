@@ -37,7 +37,7 @@ Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits,
       Covering::Piece& part = certificate.pieces.emplace_back();
       part.face = piece.face;
       part.piece = piece.number;
-      for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
+      part.vertices = scene.corner_points(piece);
     }
   for (const Set_aside& entry : scene.set_aside()) certificate.set_aside.push_back({entry.face, entry.why});
   return certificate;

@@ -225,7 +225,7 @@ TEST(Graph, is_right_for_the_fragments_of_a_tree) {
     const Built built(degenerate_soup(k + 200000));
     Priority_relation<Exact_traits> relation(built.traits);
     Flats flats;
-    for (const Piece& piece : built.scene.pieces()) flats.emplace_back(built.piece_corners(piece));
+    for (const Piece& piece : built.scene.pieces()) flats.emplace_back(built.scene.corner_points(piece));
     for (const Drawn& fragment : built.tree.fragments) {
       relation.add(fragment.polygon);
       flats.emplace_back(built.corners(fragment.polygon));

@@ -334,7 +334,7 @@ TEST(Relation, holds_for_the_fragments_of_a_tree_whose_corners_are_meets_of_plan
     const Built built(degenerate_soup(k + 40000));
     Priority_relation<Exact_traits> relation(built.traits);
     Flats flats;
-    for (const Piece& piece : built.scene.pieces()) flats.emplace_back(built.piece_corners(piece));
+    for (const Piece& piece : built.scene.pieces()) flats.emplace_back(built.scene.corner_points(piece));
     for (const Drawn& fragment : built.tree.fragments) {
       relation.add(fragment.polygon);
       flats.emplace_back(built.corners(fragment.polygon));

@@ -182,8 +182,7 @@ struct Related {
 
   explicit Related(Polygon_soup given) : soup(std::move(given)), scene(soup), traits(scene), relation(traits) {
     for (const Piece& piece : scene.pieces()) {
-      Points corners;
-      for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+      const Points corners = scene.corner_points(piece);
       flats.emplace_back(corners);
     }
   }

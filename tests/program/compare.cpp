@@ -98,6 +98,7 @@ TEST_F(Compare, refuses_options_that_its_question_would_pass_over) {
       {{"see", "--size", "16x16"}, "weak, render"},
       {{"weak", "--from-face", "0", "--size", "16x16"}, "--svg"},
       {{"weak", "--from-face", "0", "--alpha", "0.5"}, "render"},
+      {{"see", "--sightlines", svg}, "pvs"},
       {{"order", "--ray-file", cube}, "trace"},
       {{"trace", "--ray-file", cube, "--random", "3"}, "--random"}};
   for (const auto& [words, named] : all) {

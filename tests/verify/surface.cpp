@@ -48,8 +48,7 @@ Triangles made(const Polygon_soup& soup, Face_id face = 0) {
   Triangles triangles;
   for (const Piece& piece : scene.pieces()) {
     if (piece.face != face) continue;
-    Points& triangle = triangles.emplace_back();
-    for (const Piece_corner& corner : scene.corners(piece)) triangle.push_back(scene.position(corner.point));
+    triangles.push_back(scene.corner_points(piece));
   }
   return sorted(triangles);
 }

@@ -320,9 +320,7 @@ TEST(Partition_by_hand, a_face_that_is_bent_has_the_areas_of_its_triangles) {
   double whole = 0, lit = 0;
   for (std::uint32_t piece = 0; piece < 2; ++piece) {
     pieces.push_back(Light_partitioner(scene).partition(piece, {looks_along_x}, {}, counters));
-    Points corners;
-    for (const Piece_corner& corner : scene.corners(scene.pieces()[piece]))
-      corners.push_back(scene.position(corner.point));
+    const Points corners = scene.corner_points(scene.pieces()[piece]);
     const Exact_point n = area_vector(corners);
     const double area = std::sqrt(Rational(oracle::dot(n, n)).get_d());
     whole += area;

@@ -332,8 +332,7 @@ TEST(Rooms, of_others_are_decided_from_faces_of_theirs_with_certificates) {
       std::vector<std::vector<Exact_point>> points;
       for (const Piece& piece : scene.pieces()) {
         if (piece.face != face) continue;
-        std::vector<Exact_point>& polygon = points.emplace_back();
-        for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
+        points.push_back(scene.corner_points(piece));
       }
       const Found found = found_and_verified(soup, points, {}, std::string(file) + " " + std::to_string(face));
       EXPECT_TRUE(found.answer.undecided.empty()) << file << " " << face;

@@ -9,11 +9,11 @@
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/harness/generate/soups.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <ctime>
 #include <iostream>
 
 namespace weak_settle {
@@ -146,15 +146,14 @@ TEST(Decided_to_the_end, leaves_nothing_undecided_and_says_what_a_long_search_sa
 
 /// In processor time, on one thread: other programs run beside this one.
 TEST(Budget, bounds_the_time_of_lines_events_and_of_going_on) {
-  const auto now = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
   const Polygon_soup soup = generate::triangles_between_squares(250, 3);
   const Scene scene(soup);
   const Occluders occluders(scene);
   const std::vector<Weak_source> sources{weak_source(occluders, 0), weak_source(occluders, 1)};
   for (const double budget : {0.0, 0.02, 0.2})
     for (const bool by_lines : {true, false}) {
-      const double begin = now();
-      const std::function<bool()> out_of_time = [&] { return now() - begin > budget; };
+      const double begin = processor_seconds();
+      const std::function<bool()> out_of_time = [&] { return processor_seconds() - begin > budget; };
       Weak_options lines;
       lines.threads = 1;
       lines.search.out_of_time = out_of_time;
@@ -172,7 +171,8 @@ TEST(Budget, bounds_the_time_of_lines_events_and_of_going_on) {
         undecided = found.undecided.size();
         EXPECT_EQ(undecided + found.visible.size() + found.hidden.size(), scene.counters().faces);
       } else undecided = weakly_visible_by_events(occluders, sources, events).undecided.size();
-      EXPECT_LE(now() - begin, (1.1 * budget + 0.05) * (test_scenes::is_sanitized() ? 10 : 1)) << budget << by_lines;
+      EXPECT_LE(processor_seconds() - begin, (1.1 * budget + 0.05) * (test_scenes::is_sanitized() ? 10 : 1))
+          << budget << by_lines;
       EXPECT_GT(undecided, 0u) << budget << by_lines;
     }
 }

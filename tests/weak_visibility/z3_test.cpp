@@ -102,9 +102,7 @@ TEST(Engine_and_z3, say_the_same_of_scenes_that_a_face_of_their_own_looks_at) {
       const generate::Posed_scene posed = family.make(parameters);
       const Scene read(posed.soup);
       if (!posed.source.empty() || read.pieces().empty() || read.pieces().size() > most_faces) continue;
-      Points source;
-      for (const Piece_corner& corner : read.corners(read.pieces()[Random(seed).below(read.pieces().size())]))
-        source.push_back(read.position(corner.point));
+      const Points source = read.corner_points(read.pieces()[Random(seed).below(read.pieces().size())]);
       ask_both({posed.name, posed.soup, source, {}, std::nullopt}, sum);
     }
   std::cout << sum << '\n';

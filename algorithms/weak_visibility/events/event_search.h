@@ -15,6 +15,7 @@
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/kernel/counters.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <array>
 #include <cstddef>
@@ -201,7 +202,7 @@ class Event_search {
 
   /// Whether the search ends here: too many events, or no time. Then it is undecided, unless it has a line.
   bool out_of_budget() { return ends_if(++events_ > options_->events) || out_of_time(); }
-  bool out_of_time() { return ends_if(options_->out_of_time && options_->out_of_time()); }
+  bool out_of_time() { return ends_if(has_run_out(options_->out_of_time)); }
   bool ends_if(bool out);
 
   static constexpr std::uint32_t none = 0xffffffff;

@@ -1,5 +1,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_shaft.h>
 
+#include <sightline/kernel/time_limit.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -172,7 +174,7 @@ double Event_shaft::divide(const Cell& cell, const Numbers& open, const Numbers&
       static_cast<std::size_t>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
   const Patch& divided = longest < 2 ? cell.source : cell.target;
   if (edges <= options_->undivided || allowance < 2 * expected_cell(still_open.size(), still_blocking.size()) ||
-      divided.halvings[longest % 2] == most_halvings || (options_->out_of_time && options_->out_of_time())) {
+      divided.halvings[longest % 2] == most_halvings || has_run_out(options_->out_of_time)) {
     left_.emplace_back(cell, std::move(still_blocking));
     return forget(own);
   }
@@ -262,7 +264,7 @@ Events_answer search_shaft(const Occluders& occluders, const Near_polygon& sourc
   }
   Events_options left = options;
   for (const Event_shaft::Part& part : parts.left) {
-    if (options.out_of_time && options.out_of_time()) {
+    if (has_run_out(options.out_of_time)) {
       answer.status = Weak_status::undecided;
       break;
     }

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/events/event_shaft.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -43,7 +44,7 @@ Events_answer part_visible_by_events(const Occluders& occluders, const Weak_sour
     }
     return near_point(occluders.frame(), sum);
   };
-  const auto out_of_time = [&] { return options.out_of_time && options.out_of_time(); };
+  const auto out_of_time = [&] { return has_run_out(options.out_of_time); };
   Events_answer answer;
   answer.status = Weak_status::hidden;
   std::size_t sides = 0;

@@ -7,6 +7,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/partition/plane_chart.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <array>
 #include <cstddef>
@@ -77,7 +78,7 @@ class Border_search {
   }
   /// The parts of a curve of lines that may matter.
   std::vector<Plane_chart::Bounds> parts(const Event_curve& curve);
-  bool out_of_time() { return out_of_time_ && out_of_time_(); }
+  bool out_of_time() { return has_run_out(out_of_time_); }
 
   static constexpr int deepest = 6;  // halves of halves
   const Occluders* occluders_;

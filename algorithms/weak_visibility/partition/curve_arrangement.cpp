@@ -1,6 +1,7 @@
 #include <sightline/algorithms/weak_visibility/partition/curve_arrangement.h>
 
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <CGAL/Interval_nt.h>
 
@@ -148,7 +149,7 @@ Curve_arrangement::Curve_arrangement(std::span<const Plane_curve> curves, const 
     append_real_roots(at_height(f, y0), x0, x1, roots);
     append_real_roots(at_height(f, y1), x0, x1, roots);
     for (std::size_t j = 0; j < i; ++j) {
-      if (out_of_time && out_of_time()) return;
+      if (has_run_out(out_of_time)) return;
       if (degree_in_y(curves[j]) > 0) append_real_roots(resultant(f, curves[j]), x0, x1, roots);
     }
   }

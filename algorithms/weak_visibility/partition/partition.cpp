@@ -19,9 +19,7 @@ Light_partition Light_partitioner::partition(std::uint32_t piece, const std::vec
                                              const Partition_options& options, Partition_counters& counters) const {
   const Occluders& occluders = merged_->occluders;
   const auto located = [&](const std::vector<Exact_point>& points) { return weak_source(occluders, points); };
-  std::vector<Exact_point> corners;
-  for (const Piece_corner& corner : scene_->corners(scene_->pieces()[piece]))
-    corners.push_back(scene_->position(corner.point));
+  const std::vector<Exact_point> corners = scene_->corner_points(scene_->pieces()[piece]);
   const Weak_source receiver = located(corners);
   std::vector<Weak_source> located_sources;
   for (const std::vector<Exact_point>& source : sources) located_sources.push_back(located(source));

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/partition/curve_arrangement.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/algorithms/weak_visibility/partition/plane_chart.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <array>
 #include <cstddef>
@@ -93,7 +94,7 @@ class Partition_builder {
   void collect_strips(Light_partition& result) const;
 
   /// Once time is out it stays so: where candidates may be missing nothing is decided.
-  bool is_over() { return is_over_ |= options_->out_of_time && options_->out_of_time(); }
+  bool is_over() { return is_over_ |= has_run_out(options_->out_of_time); }
 
   const Occluders* occluders_;
   const Partition_options* options_;

@@ -1,5 +1,7 @@
 #include <sightline/algorithms/weak_visibility/partition/real_root.h>
 
+#include <sightline/kernel/time_limit.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -199,7 +201,7 @@ bool sort_distinct(std::vector<Real_root>& roots, const std::function<bool()>& o
   // Nearly in order: by insertion, equal ones left out.
   std::vector<Real_root> sorted;
   for (Real_root& root : roots) {
-    if (out_of_time && out_of_time()) return false;
+    if (has_run_out(out_of_time)) return false;
     std::size_t at = sorted.size();
     int order = 1;
     while (at > 0 && (order = compare(root, sorted[at - 1])) < 0) --at;

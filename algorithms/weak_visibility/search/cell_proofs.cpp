@@ -88,87 +88,89 @@ bool Cell_proofs::at_corner(const Line_cell& cell, std::vector<Multiplier>& proo
   return false;
 }
 
-bool Cell_proofs::by_forms(const Line_cell& cell, bool source, bool thoroughly, std::vector<Multiplier>& proof,
-                           Weak_counters& counters) {
-  const Near_polygon &own = source ? cell.domain->source : cell.domain->target,
-                     &other = source ? cell.domain->target : cell.domain->source;
-  const std::size_t m = own.size(), columns = m * (m + 1) / 2 * other.size();
-  if (columns > 400 || cell.rows.size() > 60) return false;
-  Edge_forms edges;
-  if (!edges_of(own, *planes_[source ? 0 : 1], edges)) return false;
-  const auto pair_of = [&](std::size_t i, std::size_t j) { return source ? i * other.size() + j : j * m + i; };
+/// The products of a cell's lines with heights above planes of one polygon's edges: a row is an edge and a line of the
+/// cell, a column a pair (i, k) of the polygon's corners, i <= k, and a corner of the other polygon.
+class Cell_proofs::Form_products {
+ public:
+  /// Both outlive it. `source`: the polygon is the cell's source.
+  Form_products(const Line_cell& cell, const Edge_forms& edges, bool source)
+      : cell_(cell),
+        edges_(edges),
+        source_(source),
+        own_(source ? cell.domain->source.size() : cell.domain->target.size()),
+        other_(source ? cell.domain->target.size() : cell.domain->source.size()) {}
 
-  // 1. The game of all products.
-  wide_.restart(columns);
-  for (std::size_t a = 0; a < m; ++a) {
-    std::vector<double> near;
-    for (const Rational& h : edges.heights[a]) near.push_back(nearest_double(Rational(h / edges.most[a])));
-    for (std::size_t r = 0; r < cell.rows.size(); ++r) {
-      const std::span<double> values = wide_.add_row();
-      std::size_t c = 0;
-      for (std::size_t i = 0; i < m; ++i)
-        for (std::size_t k = i; k < m; ++k)
-          for (std::size_t j = 0; j < other.size(); ++j)
-            values[c++] = 0.5 * (near[i] * cell.value(r, pair_of(k, j)) + near[k] * cell.value(r, pair_of(i, j)));
+  std::size_t rows() const { return own_ * cell_.rows.size(); }
+  std::size_t columns() const { return own_ * (own_ + 1) / 2 * other_; }
+  std::size_t edge_of(std::size_t row) const { return row / cell_.rows.size(); }
+  std::size_t line_of(std::size_t row) const { return row % cell_.rows.size(); }
+
+  /// In doubles, divided by the edge's greatest height.
+  void fill(Matrix_game<double>& game) const {
+    game.restart(columns());
+    for (std::size_t a = 0; a < own_; ++a) {
+      std::vector<double> near;
+      for (const Rational& h : edges_.heights[a]) near.push_back(nearest_double(Rational(h / edges_.most[a])));
+      for (std::size_t r = 0; r < cell_.rows.size(); ++r) {
+        const std::span<double> values = game.add_row();
+        std::size_t c = 0;
+        for (std::size_t i = 0; i < own_; ++i)
+          for (std::size_t k = i; k < own_; ++k)
+            for (std::size_t j = 0; j < other_; ++j)
+              values[c++] = 0.5 * (near[i] * cell_.value(r, pair(k, j)) + near[k] * cell_.value(r, pair(i, j)));
+      }
     }
   }
+
+  /// Twice the exact product, not divided.
+  Rational operator()(std::size_t row, std::size_t column) const {
+    const std::size_t a = edge_of(row), r = line_of(row), j = column % other_;
+    std::size_t i = 0, rest = column / other_;
+    while (rest >= own_ - i) {
+      rest -= own_ - i;
+      ++i;
+    }
+    return Rational(edges_.heights[a][i] * cell_.exact_value(r, pair(i + rest, j)) +
+                    edges_.heights[a][i + rest] * cell_.exact_value(r, pair(i, j)));
+  }
+
+ private:
+  std::size_t pair(std::size_t i, std::size_t j) const { return source_ ? i * other_ + j : j * own_ + i; }
+
+  const Line_cell& cell_;
+  const Edge_forms& edges_;
+  bool source_;
+  std::size_t own_, other_;
+};
+
+bool Cell_proofs::by_forms(const Line_cell& cell, bool source, bool thoroughly, std::vector<Multiplier>& proof,
+                           Weak_counters& counters) {
+  const Near_polygon& own = source ? cell.domain->source : cell.domain->target;
+  Edge_forms edges;
+  const Form_products products(cell, edges, source);
+  if (products.columns() > 400 || cell.rows.size() > 60) return false;
+  if (!edges_of(own, *planes_[source ? 0 : 1], edges)) return false;
+
+  // 1. The game of all products.
+  products.fill(wide_);
   ++counters.form_programs;
   const double result = wide_.solve();
   if (result > (thoroughly ? 5e-12 : 1e-12)) return false;
 
-  // 2. Exact weights: those of the basis, or, where there is room, these very doubles.
-  const auto coefficient = [&](std::size_t row, std::size_t column) {
-    const std::size_t a = row / cell.rows.size(), k = row % cell.rows.size(), j = column % other.size();
-    std::size_t i = 0, rest = column / other.size();
-    while (rest >= m - i) {
-      rest -= m - i;
-      ++i;
-    }
-    return Rational(edges.heights[a][i] * cell.exact_value(k, pair_of(i + rest, j)) +
-                    edges.heights[a][i + rest] * cell.exact_value(k, pair_of(i, j)));
-  };
-  std::vector<std::pair<std::size_t, Rational>> weights;
-  if (result < -1e-11) {
-    for (std::size_t k = 0; k < wide_.rows(); ++k)
-      if (wide_.row_weights()[k] > 1e-10)
-        weights.push_back({k, exact(wide_.row_weights()[k]) / edges.most[k / cell.rows.size()]});
-  } else if (thoroughly && wide_.rows() * columns <= 1000 && exact_games_ < most_exact_games) {
-    ++exact_games_;
-    std::size_t bits = 0;
-    exact_game_.restart(columns);
-    for (std::size_t row = 0; row < wide_.rows(); ++row) {
-      const std::span<Rational> values = exact_game_.add_row();
-      for (std::size_t c = 0; c < columns; ++c) {
-        values[c] = coefficient(row, c) / edges.most[row / cell.rows.size()];
-        bits += bit_length(values[c].get_num()) + bit_length(values[c].get_den());
-      }
-    }
-    if (bits > most_bits || sgn(exact_game_.solve()) > 0) return false;
-    for (std::size_t k = 0; k < wide_.rows(); ++k)
-      if (sgn(exact_game_.row_weights()[k]) > 0)
-        weights.push_back({k, exact_game_.row_weights()[k] / edges.most[k / cell.rows.size()]});
-  } else {
-    const std::vector<std::size_t>& rows = wide_.tight_rows();
-    std::vector<Rational> solved;
-    Rational exact_result;
-    if (!solve_basis(rows, wide_.tight_columns(), coefficient, solved, exact_result, out_of_time_)) return false;
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      if (sgn(solved[k]) < 0) return false;
-      if (sgn(solved[k]) > 0) weights.push_back({rows[k], solved[k]});
-    }
-  }
-  for (std::size_t c = 0; c < columns; ++c) {
+  // 2. Exact weights, under which no sum is positive.
+  const Row_weights weights = form_weights(products, edges, result, thoroughly);
+  if (weights.empty()) return false;
+  for (std::size_t c = 0; c < products.columns(); ++c) {
     Rational sum;
-    for (const auto& [row, weight] : weights) sum += weight * coefficient(row, c);
+    for (const auto& [row, weight] : weights) sum += weight * products(row, c);
     if (sgn(sum) > 0) return false;
   }
-  if (weights.empty()) return false;
 
   // 3. One form for each line.
   std::map<std::size_t, std::array<Rational, 4>> sums;
   for (const auto& [row, weight] : weights)
     for (std::size_t k = 0; k < 4; ++k)
-      sums[row % cell.rows.size()][k] += weight * Rational(edges.forms[row / cell.rows.size()][k]);
+      sums[products.line_of(row)][k] += weight * Rational(edges.forms[products.edge_of(row)][k]);
   for (const auto& [row, sum] : sums) {
     Integer common = 1;
     for (const Rational& x : sum) common = lcm(common, x.get_den());
@@ -180,6 +182,41 @@ bool Cell_proofs::by_forms(const Line_cell& cell, bool source, bool thoroughly, 
   }
   ++counters.by_forms;
   return true;
+}
+
+Cell_proofs::Row_weights Cell_proofs::form_weights(const Form_products& products, const Edge_forms& edges,
+                                                   double result, bool thoroughly) {
+  const auto of_edge = [&](std::size_t row) -> const Rational& { return edges.most[products.edge_of(row)]; };
+  Row_weights weights;
+  if (result < -1e-11) {  // there is room: the very doubles
+    for (std::size_t row = 0; row < wide_.rows(); ++row)
+      if (wide_.row_weights()[row] > 1e-10) weights.push_back({row, exact(wide_.row_weights()[row]) / of_edge(row)});
+  } else if (thoroughly && wide_.rows() * products.columns() <= 1000 && exact_games_ < most_exact_games) {
+    ++exact_games_;
+    std::size_t bits = 0;
+    exact_game_.restart(products.columns());
+    for (std::size_t row = 0; row < wide_.rows(); ++row) {
+      const std::span<Rational> values = exact_game_.add_row();
+      for (std::size_t c = 0; c < values.size(); ++c) {
+        values[c] = products(row, c) / of_edge(row);
+        bits += bit_length(values[c].get_num()) + bit_length(values[c].get_den());
+      }
+    }
+    if (bits > most_bits || sgn(exact_game_.solve()) > 0) return {};
+    for (std::size_t row = 0; row < wide_.rows(); ++row)
+      if (sgn(exact_game_.row_weights()[row]) > 0)
+        weights.push_back({row, exact_game_.row_weights()[row] / of_edge(row)});
+  } else {  // those of the basis
+    const std::vector<std::size_t>& rows = wide_.tight_rows();
+    std::vector<Rational> solved;
+    Rational exact_result;
+    if (!solve_basis(rows, wide_.tight_columns(), products, solved, exact_result, out_of_time_)) return {};
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (sgn(solved[k]) < 0) return {};
+      if (sgn(solved[k]) > 0) weights.push_back({rows[k], solved[k]});
+    }
+  }
+  return weights;
 }
 
 bool Cell_proofs::conclude(const Line_cell& cell, const std::vector<Weighted>& proposal,

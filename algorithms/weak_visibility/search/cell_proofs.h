@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sightline {
@@ -104,6 +105,12 @@ class Cell_proofs {
   static bool edges_of(const Near_polygon& polygon, const Near_plane& plane, Edge_forms& edges);
   /// A plane through an edge, upright on the polygon's plane, the polygon in front. It is zero on the edge.
   static Weak_step::Form form_of(const Near_polygon& polygon, std::size_t edge, const Near_plane& plane);
+
+  class Form_products;
+  using Row_weights = std::vector<std::pair<std::size_t, Rational>>;
+  /// Exact weights of products under which hardly a sum is positive, if any, as the game says that ended with `result`:
+  /// those of its basis, or, where there is room, its very doubles. Empty where there are none.
+  Row_weights form_weights(const Form_products& products, const Edge_forms& edges, double result, bool thoroughly);
 
   const Occluders* occluders_;
   const Edge_lines* lines_;

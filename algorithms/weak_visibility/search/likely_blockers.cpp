@@ -1,5 +1,7 @@
 #include <sightline/algorithms/weak_visibility/search/likely_blockers.h>
 
+#include <sightline/kernel/time_limit.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -65,7 +67,7 @@ std::vector<std::uint32_t> likely_blockers(const Occluders& occluders, const Wea
   const std::span<const Piece_boxes::Node> nodes = boxes.nodes();
   std::vector<std::uint32_t> waiting;
   if (!nodes.empty()) waiting.push_back(0);
-  while (!waiting.empty() && !(out_of_time && out_of_time())) {
+  while (!waiting.empty() && !has_run_out(out_of_time)) {
     const std::uint32_t at = waiting.back();
     waiting.pop_back();
     const Piece_boxes::Node& node = nodes[at];

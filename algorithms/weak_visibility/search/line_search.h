@@ -12,6 +12,7 @@
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/convex_parts.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <array>
 #include <bitset>
@@ -96,7 +97,7 @@ class Line_search {
 
   Refutation refute(std::uint32_t d, std::size_t depth);
 
-  bool out_of_time() const { return options_->out_of_time && options_->out_of_time(); }
+  bool out_of_time() const { return has_run_out(options_->out_of_time); }
   Refutation open();
   Refutation leaf(Weak_step step, Used used);
 

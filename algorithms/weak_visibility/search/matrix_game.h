@@ -3,6 +3,7 @@
 // proves it.
 
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -134,7 +135,7 @@ class Matrix_game {
   void run() {
     for (int step = 0; step < max_steps; ++step) {
       const std::size_t entering = entering_row(step);
-      if (entering == rows_ || (out_of_time_ && out_of_time_())) break;
+      if (entering == rows_ || has_run_out(out_of_time_)) break;
       const std::size_t leaving = leaving_column(entering);
       if (leaving == columns_) break;  // by rounding only: entries are positive
       pivot(leaving, entering);
@@ -263,7 +264,7 @@ bool solve_equations(std::vector<std::vector<Number>>& a, std::vector<Number>& s
                      const std::function<bool()>& out_of_time = {}) {
   const std::size_t n = a.size();
   for (std::size_t k = 0; k < n; ++k) {
-    if (out_of_time && out_of_time()) return false;
+    if (has_run_out(out_of_time)) return false;
     std::size_t pivot = k;
     for (std::size_t i = k + 1; i < n; ++i)
       if (cmp(abs(a[i][k]), abs(a[pivot][k])) > 0) pivot = i;
