@@ -82,7 +82,7 @@ Posed_scene any_outlines(Random& random) {
       Points outline;
       for (std::uint64_t corners = 4 + random.below(5); corners > 0; --corners)
         outline.push_back(lattice_in_plane(random, origin, u, v, -reach, reach));
-      if (Scene(soup_of({outline})).pieces().size() < 2) continue;
+      if (const Scene scene(soup_of({outline})); scene.pieces().size() < 2) continue;
       faces.push_back(outline);
       if (random.chance(1, 2)) faces.push_back({outline[0], outline[1], lattice(random, 4)});
       break;

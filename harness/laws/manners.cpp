@@ -43,8 +43,8 @@ std::string flaw_of_manners(const Question& question, const Posed_scene& posed, 
   if (question.ask(posed, {so_many, listener.teller()}, choice) != alone)
     return question.name + " is another one by " + std::to_string(so_many) + " threads";
   if (listener.is_beyond()) return question.name + " tells of more than all";
-  if (question.always_tells && listener.times() == 0 && !Scene(posed.soup).pieces().empty())
-    return question.name + " tells nothing of its progress";
+  if (question.always_tells && listener.times() == 0)
+    if (const Scene scene(posed.soup); !scene.pieces().empty()) return question.name + " tells nothing of its progress";
   // 2. To somebody who gives up on the way.
   Listener impatient(random.below(listener.times() + 1));
   try {

@@ -75,7 +75,8 @@ Eye_cones cones_from_eye(const Posed_scene& scene, Answer& answer) {
 Answer labels_of(const Posed_scene& scene) {
   Answer answer;
   answer.labels.assign(scene.soup.face_count(), Answer::none);
-  answer.planar = Scene(scene.soup).non_planar().empty();
+  const Scene prepared(scene.soup);
+  answer.planar = prepared.non_planar().empty();
   const Eye_cones cones = cones_from_eye(scene, answer);
   const auto add = [&](std::size_t first, Set_operation operation, std::uint32_t bit) {
     const std::size_t faces = cones.solids[first].face_count();

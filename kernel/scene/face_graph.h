@@ -47,7 +47,7 @@ class Face_graph {
   const Scene& scene() const { return *scene_; }
   /// Face k of the mesh is piece k of the scene; its vertices are those of point(), at the approximate coordinates of
   /// Grid_points.
-  const Face_mesh& mesh() const { return *mesh_; }
+  const Face_mesh& mesh() const& { return *mesh_; }
   /// The point of the scene that a vertex of the mesh is at.
   std::uint32_t point(std::size_t vertex) const { return point_of_vertex_[vertex]; }
 
@@ -56,19 +56,25 @@ class Face_graph {
   std::uint32_t piece(std::uint32_t node) const { return piece_[node]; }  ///< the first of them
   Plane plane(std::uint32_t node) const { return scene_->pieces()[piece_[node]].support; }
 
-  const std::vector<Edge>& edges() const { return edges_; }
-  std::span<const std::uint32_t> edges_of(std::uint32_t node) const {
+  const std::vector<Edge>& edges() const& { return edges_; }
+  std::span<const std::uint32_t> edges_of(std::uint32_t node) const& {
     return {incident_.data() + begin_[node], begin_[node + 1] - begin_[node]};
   }
   std::uint32_t across(std::uint32_t edge, std::uint32_t node) const {
     return edges_[edge].first ^ edges_[edge].second ^ node;
   }
 
-  const std::vector<Component>& components() const { return components_; }
+  const std::vector<Component>& components() const& { return components_; }
   std::uint32_t component(std::uint32_t node) const { return component_[node]; }
   bool is_convex(std::uint32_t node) const { return components_[component_[node]].inside.has_value(); }
   /// Pieces that OpenMesh could not join to their neighbours.
   std::size_t refused() const { return refused_; }
+
+  // Of a temporary nothing that would refer to what is gone.
+  void mesh() const&& = delete;
+  void edges() const&& = delete;
+  void edges_of(std::uint32_t node) const&& = delete;
+  void components() const&& = delete;
 
  private:
   struct Builder;

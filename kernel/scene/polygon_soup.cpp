@@ -4,9 +4,20 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace sightline {
+
+namespace {
+
+std::string no_coordinate(double x) { return std::to_string(x) + " is no coordinate; give the point finite ones"; }
+
+}  // namespace
+
+void Exact_point::check_finite(double x, int axis) {
+  if (!std::isfinite(x)) throw std::domain_error(std::string("a point's ") + "xyz"[axis] + ": " + no_coordinate(x));
+}
 
 Exact_point scaled_to_one(Exact_point v) {
   std::optional<long> largest;
@@ -27,8 +38,7 @@ Point_id Polygon_soup::add_point(const Rational& x, const Rational& y, const Rat
 Point_id Polygon_soup::add_point(double x, double y, double z) {
   for (const double coordinate : {x, y, z})
     if (!std::isfinite(coordinate))
-      throw std::domain_error("point " + std::to_string(point_count()) + ": " + std::to_string(coordinate) +
-                              " is no coordinate; give the point finite ones");
+      throw std::domain_error("point " + std::to_string(point_count()) + ": " + no_coordinate(coordinate));
   coordinates.push_double(x);
   coordinates.push_double(y);
   coordinates.push_double(z);

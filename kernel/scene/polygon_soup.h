@@ -5,21 +5,49 @@
 #include <sightline/kernel/number.h>
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sightline {
 
 using Point_id = std::uint32_t;
 using Face_id = std::uint32_t;  ///< 0-based place of a face in the input
-using Exact_point = std::array<Rational, 3>;
+
+/// What a Rational is made of.
+template <class Number>
+concept Coordinate_number = std::is_convertible_v<Number, Rational>;
+
+/// A point, or a vector, of exact coordinates: an array of them that is also made of integers and of finite doubles,
+/// each taken for the number that it is. Errors: std::domain_error for a double that is not finite. A Rational cannot
+/// say that, GMP ends the process; so what is assigned to a coordinate goes through exact(). Exact: yes
+struct Exact_point : std::array<Rational, 3> {
+  Exact_point() : std::array<Rational, 3>{} {}  ///< the origin
+  template <Coordinate_number X, Coordinate_number Y, Coordinate_number Z>
+  Exact_point(X&& x, Y&& y, Z&& z)
+      : std::array<Rational, 3>{number(std::forward<X>(x), 0), number(std::forward<Y>(y), 1),
+                                number(std::forward<Z>(z), 2)} {}
+  /// Of that type alone: braces in braces, which could be it, would pass doubles on to Rational.
+  template <std::same_as<std::array<Rational, 3>> Array>
+  Exact_point(Array coordinates) : std::array<Rational, 3>(std::move(coordinates)) {}
+
+ private:
+  template <Coordinate_number Number>
+  static Rational number(Number&& x, int axis) {
+    if constexpr (std::is_floating_point_v<std::remove_cvref_t<Number>>) check_finite(double{x}, axis);
+    return std::forward<Number>(x);
+  }
+  static void check_finite(double x, int axis);
+};
 
 /// The point that finite doubles are. Exact: yes
-inline Exact_point exact(const std::array<double, 3>& v) { return {exact(v[0]), exact(v[1]), exact(v[2])}; }
+inline Exact_point exact(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 /// A vector times a power of two: its largest coordinate is between 1/4 and 1, so that doubles can tell what depends on
 /// directions alone. Degenerate: zero stays zero. Exact: yes
@@ -40,10 +68,12 @@ struct Polygon_soup {
 
   std::size_t face_count() const { return face_begin_.size() - 1; }
   std::size_t loop_count(Face_id f) const { return face_begin_[f + 1] - face_begin_[f]; }
-  std::span<const Point_id> loop(Face_id f, std::size_t k = 0) const {
+  std::span<const Point_id> loop(Face_id f, std::size_t k = 0) const& {
     const std::size_t l = face_begin_[f] + k;
     return {corners_.data() + loop_begin_[l], corners_.data() + loop_begin_[l + 1]};
   }
+  void loop(Face_id f,
+            std::size_t k = 0) const&& = delete;  // of a temporary, which is gone before its corners are read
 
   /// Appends a point and returns its id. Errors: std::domain_error, which names the point, where a double is not
   /// finite.
@@ -78,3 +108,11 @@ struct Polygon_soup {
 };
 
 }  // namespace sightline
+
+// A point's coordinates are bound as those of an array: auto [x, y, z] = point.
+template <>
+struct std::tuple_size<sightline::Exact_point> : std::integral_constant<std::size_t, 3> {};
+template <std::size_t k>
+struct std::tuple_element<k, sightline::Exact_point> {
+  using type = sightline::Rational;
+};

@@ -30,20 +30,33 @@ class Scene {
  public:
   explicit Scene(const Polygon_soup& soup);
 
-  const std::string& file() const { return file_; }
-  const Grid_points& points() const { return grid_.points(); }
-  const Plane_table& planes() const { return faces_.planes; }
-  const std::vector<Piece>& pieces() const { return faces_.pieces; }
-  std::span<const Piece_corner> corners(const Piece& piece) const {
+  const std::string& file() const& { return file_; }
+  const Grid_points& points() const& { return grid_.points(); }
+  const Plane_table& planes() const& { return faces_.planes; }
+  const std::vector<Piece>& pieces() const& { return faces_.pieces; }
+  std::span<const Piece_corner> corners(const Piece& piece) const& {
     return {faces_.corners.data() + piece.first, piece.size};
   }
-  const std::vector<Set_aside>& set_aside() const { return faces_.set_aside; }
-  const std::vector<Face_id>& non_planar() const { return faces_.non_planar; }
-  const std::vector<Face_id>& concave() const { return faces_.concave; }
-  const Scene_counters& counters() const { return faces_.counters; }
-  const Point_planes& incidences() const { return incidences_; }
+  const std::vector<Set_aside>& set_aside() const& { return faces_.set_aside; }
+  const std::vector<Face_id>& non_planar() const& { return faces_.non_planar; }
+  const std::vector<Face_id>& concave() const& { return faces_.concave; }
+  const Scene_counters& counters() const& { return faces_.counters; }
+  const Point_planes& incidences() const& { return incidences_; }
   Predicates predicates() const&;  ///< of `kernel/predicates.h`
-  Predicates predicates() const&& = delete;
+
+  // Of a temporary none of them, which would refer to what is gone.
+  void file() const&& = delete;
+  void points() const&& = delete;
+  void planes() const&& = delete;
+  void pieces() const&& = delete;
+  void corners(const Piece& piece) const&& = delete;
+  void set_aside() const&& = delete;
+  void non_planar() const&& = delete;
+  void concave() const&& = delete;
+  void counters() const&& = delete;
+  void incidences() const&& = delete;
+  void predicates() const&& = delete;
+
   Prepared_plane prepared(Plane plane) const;  ///< as predicates() make it, for those that need no more of them
 
   /// Bit length of the largest coordinate once the whole scene is scaled to integers, and of that scale.

@@ -187,7 +187,7 @@ inline void try_case_of_a_family(Random& random) {
     const Case uncut = made_by(whole);
     for (Face_id f = 0; f < made.soup.face_count(); ++f)
       require(made.soup.loop_count(f) == 1 && made.soup.loop(f).size() == 3, "a triangle has three corners");
-    if (uncut.not_asked.empty() && Scene(uncut.soup).set_aside().empty())
+    if (const Scene scene(uncut.soup); uncut.not_asked.empty() && scene.set_aside().empty())
       require(vector_area(made.soup) == vector_area(uncut.soup), "triangles are as large as what they were cut from");
   }
   // 5. Moved.

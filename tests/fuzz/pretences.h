@@ -77,7 +77,8 @@ inline Pretence passing_over(const Posed_scene& truth, Bytes& bytes) {
 /// A face of one loop, one that is not planar if there is such, as the triangles from one of its corners, whichever
 /// surface that is.
 inline Pretence triangulated_otherwise(const Posed_scene& truth, Bytes& bytes) {
-  const std::vector<Face_id> skew = Scene(truth.soup).non_planar();
+  const Scene scene(truth.soup);
+  const std::vector<Face_id>& skew = scene.non_planar();
   const Face_id chosen =
       skew.empty() ? static_cast<Face_id>(bytes.below(truth.soup.face_count())) : skew[bytes.below(skew.size())];
   const auto loop = truth.soup.loop(chosen);

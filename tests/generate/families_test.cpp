@@ -48,7 +48,10 @@ std::size_t set_aside(const Posed_scene& scene, const std::string& why) {
       std::count_if(read.set_aside().begin(), read.set_aside().end(),
                     [&](const sightline::Set_aside& entry) { return entry.why.starts_with(why); }));
 }
-std::size_t planes(const Posed_scene& scene) { return Scene(scene.soup).planes().size(); }
+std::size_t planes(const Posed_scene& posed) {
+  const Scene scene(posed.soup);
+  return scene.planes().size();
+}
 
 TEST(Families, have_names_of_their_own_and_say_what_they_are) {
   std::set<std::string> names;

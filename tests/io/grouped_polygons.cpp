@@ -78,7 +78,8 @@ TEST(Grouped_polygons, of_many_corners_are_in_ply_too) {
   std::vector<Exact_point> corners;
   for (int k = -200; k <= 200; ++k) corners.push_back({k, k * k, 0});
   all.add_polygon(0, 0, corners);
-  EXPECT_EQ(read_scene(drawing_bytes(all, Drawing_format::ply), Format::ply, "drawing", {}).loop(0, 0).size(), 401u);
+  const Polygon_soup soup = read_scene(drawing_bytes(all, Drawing_format::ply), Format::ply, "drawing", {});
+  EXPECT_EQ(soup.loop(0, 0).size(), 401u);
 }
 
 /// What the two parts of a .glb hold.

@@ -223,7 +223,8 @@ TEST(Truth, is_about_planar_faces_on_doubles) {
   const Polygon_soup planar = with_planar_faces(soup);
   EXPECT_EQ(planar.face_count(), 4u);
   EXPECT_EQ(planar.point_count(), soup.point_count());
-  EXPECT_TRUE(Scene(planar).non_planar().empty());
+  const Scene scene(planar);
+  EXPECT_TRUE(scene.non_planar().empty());
   EXPECT_EQ(planar.loop(3).size(), 4u);
   EXPECT_EQ(with_planar_faces(planar).face_count(), 4u);
 

@@ -49,7 +49,8 @@ TEST(Closure, a_doubled_face_opens_also_where_it_is_set_aside_as_a_duplicate) {
   Polygon_soup soup;
   add_cube(soup, 0, 0, 0, 2);
   soup.add_face({4, 5, 7, 6});
-  EXPECT_EQ(Scene(soup).set_aside().size(), 1u);
+  const Scene scene(soup);
+  EXPECT_EQ(scene.set_aside().size(), 1u);
   EXPECT_FALSE(closed(soup));
   Polygon_soup halves;
   add_cube(halves, 0, 0, 0, 2);
@@ -90,7 +91,8 @@ TEST(Closure, nested_solids_may_share_a_face) {
     return both;
   };
   EXPECT_TRUE(closed(with_tower(true)));
-  EXPECT_EQ(Scene(with_tower(true)).set_aside().size(), 1u);
+  const Scene scene(with_tower(true));
+  EXPECT_EQ(scene.set_aside().size(), 1u);
   EXPECT_FALSE(closed(with_tower(false))) << "one floor for two";
 }
 TEST(Closure, a_turned_face_opens) {
@@ -108,7 +110,8 @@ TEST(Closure, T_junctions_do_not_open) {
   soup.add_face({4, a, c, b, 6});  // the top in two, joined along a bent line; its neighbours know nothing of a and b
   soup.add_face({a, 5, 7, b, c});
   EXPECT_TRUE(closed(soup));
-  EXPECT_EQ(Scene(soup).set_aside().size(), 0u);
+  const Scene scene(soup);
+  EXPECT_EQ(scene.set_aside().size(), 0u);
 }
 TEST(Closure, a_hole_in_a_wall_opens_and_a_window_pane_closes_it) {
   for (const bool pane : {false, true}) {
@@ -138,6 +141,7 @@ TEST(Closure, a_non_planar_wall_closes_where_its_triangles_do) {
   static const Point_id faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                        {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& f : faces) soup.add_face({f[0], f[1], f[2], f[3]});
-  EXPECT_EQ(Scene(soup).counters().non_planar, 3u);
+  const Scene scene(soup);
+  EXPECT_EQ(scene.counters().non_planar, 3u);
   EXPECT_TRUE(closed(soup));
 }

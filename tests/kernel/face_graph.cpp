@@ -181,8 +181,9 @@ TEST(Face_graph, joins_what_is_a_manifold_and_leaves_the_rest_apart) {
   EXPECT_EQ(graph.refused(), 1u);
   EXPECT_EQ(graph.components().size(), 2u);
   const Scene same(polyhedron(points, {{0, 1, 2}, {0, 1, 3}}));
-  EXPECT_EQ(Face_graph(same).edges().size(), 0u);
-  EXPECT_EQ(Face_graph(same).refused(), 1u);
+  const Face_graph graph_of_same(same);
+  EXPECT_EQ(graph_of_same.edges().size(), 0u);
+  EXPECT_EQ(graph_of_same.refused(), 1u);
 }
 
 TEST(Face_graph, a_sheet_and_its_back_are_two_nodes_and_no_body) {

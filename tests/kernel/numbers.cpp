@@ -4,10 +4,13 @@
 #include <rapidcheck/gtest.h>
 
 #include <sightline/kernel/coordinates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/uniform.h>
+#include <sightline/kernel/vectors.h>
 
 #include <mpfr.h>
 
+#include <array>
 #include <bit>
 #include <cfenv>
 #include <cmath>
@@ -15,6 +18,8 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <stdexcept>
+#include <type_traits>
 
 using namespace sightline;
 
@@ -45,6 +50,32 @@ bool is_nearest(double d, const Rational& value) {
     if (other_error == error && (std::bit_cast<std::uint64_t>(d) & 1) != 0) return false;  // a tie goes to even
   }
   return true;
+}
+
+TEST(Exact_point, is_made_of_numbers_and_refuses_what_is_none) {
+  const Exact_point p{1, 0.5f, Rational(1, 3)}, q{p[0] + p[1], 0x1p-1074, Integer(7)};
+  EXPECT_EQ(p[1], Rational(1, 2));
+  EXPECT_EQ(q[0], Rational(3, 2));
+  EXPECT_EQ(q[1], times_power(Rational(1), -1074));
+  const auto [x, y, z] = q;
+  EXPECT_EQ(Exact_point(x, y, z), q);
+  EXPECT_EQ(Exact_point(), (Exact_point{0, 0, 0}));
+  EXPECT_LT(p, q);
+  // What is computed of points is one; of a point and an array, an array.
+  const Exact_point along{1, 0, 0}, up{0, 0, 1};
+  static_assert(std::is_same_v<decltype(sightline::minus(p, q)), Exact_point>);
+  static_assert(std::is_same_v<decltype(sightline::minus(p, std::array<Rational, 3>{})), std::array<Rational, 3>>);
+  EXPECT_EQ(sightline::minus(p, q), (Exact_point{p[0] - q[0], p[1] - q[1], p[2] - q[2]}));
+  EXPECT_EQ(sightline::cross(up, along), (Exact_point{0, 1, 0}));
+  EXPECT_EQ(sightline::cross(p, q), sightline::cross(std::array<Rational, 3>(p), std::array<Rational, 3>(q)));
+  // Only as exact(): three doubles that are not asked whether they are numbers make none.
+  static_assert(!std::is_constructible_v<Exact_point, std::array<double, 3>>);
+  for (const double none : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    EXPECT_THROW((Exact_point{none, 0, 0}), std::domain_error);
+    EXPECT_THROW((Exact_point{0, static_cast<float>(none), 0}), std::domain_error);
+    EXPECT_THROW((Exact_point{0, 0, none}), std::domain_error);
+    EXPECT_THROW(exact({0, none, 0}), std::domain_error);
+  }
 }
 
 TEST(Uniform, is_below_its_end_and_what_this_standard_library_draws) {

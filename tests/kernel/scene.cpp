@@ -86,8 +86,9 @@ TEST(Scene_policy, straight_and_repeated_points_of_a_convex_face_are_no_corners)
 TEST(Scene_policy, a_concave_face_is_cut_into_convex_pieces_on_its_own_points) {
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}}})) {
     expect_kept(soup, 2);
-    EXPECT_EQ(Scene(soup).counters().concave, 1u);
-    EXPECT_EQ(Scene(soup).concave(), std::vector<Face_id>{0});
+    const Scene scene(soup);
+    EXPECT_EQ(scene.counters().concave, 1u);
+    EXPECT_EQ(scene.concave(), std::vector<Face_id>{0});
   }
 }
 TEST(Scene_policy, a_face_with_a_hole_of_either_sense_is_cut_around_it) {
@@ -153,7 +154,8 @@ TEST(Scene_policy, a_spike_that_crosses_the_contour_is_one_that_crosses_itself) 
 TEST(Scene_policy, a_non_planar_quad_is_two_triangles) {
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 1}, {0, 4, 0}}})) {
     expect_kept(soup, 2, false);
-    EXPECT_EQ(Scene(soup).non_planar(), std::vector<Face_id>{0});
+    const Scene scene(soup);
+    EXPECT_EQ(scene.non_planar(), std::vector<Face_id>{0});
   }
 }
 TEST(Scene_policy, a_non_planar_pentagon_is_three_triangles_concave_or_not) {
@@ -161,7 +163,8 @@ TEST(Scene_policy, a_non_planar_pentagon_is_three_triangles_concave_or_not) {
     expect_kept(soup, 3, false);
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 1}, {2, 1, 0}, {3, 6, 2}, {-1, 4, 0}}})) {
     expect_kept(soup, 3, false);
-    EXPECT_EQ(Scene(soup).counters().fanned, 0u);
+    const Scene scene(soup);
+    EXPECT_EQ(scene.counters().fanned, 0u);
   }
 }
 TEST(Scene_policy, a_non_planar_face_is_cut_as_its_largest_projection_is) {

@@ -1,4 +1,5 @@
 // What keeps a pointer to what it was made of takes no temporary for it: that would be gone before the first question.
+// And what is kept in something is not to be had of a temporary.
 
 #include <sightline/algorithms/baseline/doubles_search.h>
 #include <sightline/algorithms/cutset/tracker.h>
@@ -21,6 +22,8 @@
 #include <sightline/kernel/line_table.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/face_graph.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/traits/lockstep_traits.h>
 #include <sightline/kernel/traits/point_traits.h>
@@ -43,10 +46,10 @@ inline constexpr bool keeps = std::is_constructible_v<Class, const Kept&, const 
 template <class Class, class First, class Kept, class... Others>
 inline constexpr bool keeps_second = !std::is_constructible_v<Class, const First&, Kept, const Others&...>;
 
-template <class Of>
-concept gives_predicates = requires(Of&& of) {
-  std::forward<Of>(of).predicates();
-};
+/// Whether a call to what stays compiles, and none to a temporary: what it returns would refer to that.
+template <class Of, class Call>
+inline constexpr bool stays = std::is_invocable_v<Call, const Of&>&& std::is_invocable_v<Call, Of&> &&
+                              !std::is_invocable_v<Call, Of> && !std::is_invocable_v<Call, const Of>;
 
 TEST(Temporaries, are_not_taken_by_what_keeps_a_pointer) {
   using Doubles = Point_traits<CGAL::Simple_cartesian<double>>;
@@ -96,9 +99,36 @@ TEST(Temporaries, are_not_taken_by_what_keeps_a_pointer) {
 
   // harness/
   static_assert(keeps<Visible_reference, Exact_view, Visible_surface<Exact_view>>);
-
-  // Predicates point into their scene.
-  static_assert(gives_predicates<const Scene&> && gives_predicates<Scene&> && !gives_predicates<Scene>);
 }
+
+#define SIGHTLINE_CALL(...)                                               \
+  [](auto&& of) -> decltype(std::forward<decltype(of)>(of).__VA_ARGS__) { \
+    return std::forward<decltype(of)>(of).__VA_ARGS__;                    \
+  }
+
+TEST(Temporaries, give_nothing_that_refers_to_them) {
+  const auto of_scene = [](auto call) { static_assert(stays<Scene, decltype(call)>); };
+  of_scene(SIGHTLINE_CALL(file()));
+  of_scene(SIGHTLINE_CALL(points()));
+  of_scene(SIGHTLINE_CALL(planes()));
+  of_scene(SIGHTLINE_CALL(pieces()));
+  of_scene(SIGHTLINE_CALL(corners(Piece())));
+  of_scene(SIGHTLINE_CALL(set_aside()));
+  of_scene(SIGHTLINE_CALL(non_planar()));
+  of_scene(SIGHTLINE_CALL(concave()));
+  of_scene(SIGHTLINE_CALL(counters()));
+  of_scene(SIGHTLINE_CALL(incidences()));
+  of_scene(SIGHTLINE_CALL(predicates()));
+  const auto of_soup = [](auto call) { static_assert(stays<Polygon_soup, decltype(call)>); };
+  of_soup(SIGHTLINE_CALL(loop(0)));
+  of_soup(SIGHTLINE_CALL(loop(0, 1)));
+  const auto of_graph = [](auto call) { static_assert(stays<Face_graph, decltype(call)>); };
+  of_graph(SIGHTLINE_CALL(mesh()));
+  of_graph(SIGHTLINE_CALL(edges()));
+  of_graph(SIGHTLINE_CALL(edges_of(0)));
+  of_graph(SIGHTLINE_CALL(components()));
+}
+
+#undef SIGHTLINE_CALL
 
 }  // namespace sightline

@@ -150,7 +150,7 @@ TEST(Events, see_the_same_from_source_to_target_as_back) {
       for (const Exact_point& p : scene.source) loop.push_back(scene.soup.add_point(p[0], p[1], p[2]));
       scene.soup.add_face(loop);
       const Face_id source = static_cast<Face_id>(scene.soup.face_count() - 1);
-      if (!Scene(scene.soup).set_aside().empty()) continue;
+      if (const Scene prepared(scene.soup); !prepared.set_aside().empty()) continue;
       Weak_scene back = scene;
       back.source = points_of(scene.targets[0]);
       const Weak_status forth = by_events(scene, scene.targets[0], options, counters);

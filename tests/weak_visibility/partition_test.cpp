@@ -426,7 +426,7 @@ TEST(Partition, with_all_borders_names_the_edges_that_brute_force_finds) {
   for (const weak_scenes::Family& family : weak_scenes::families())
     for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 1 : 2); ++seed) {
       const weak_scenes::Weak_scene scene = family.make(seed);
-      if (Scene(scene.soup).pieces().size() > 8) continue;
+      if (const Scene prepared(scene.soup); prepared.pieces().size() > 8) continue;
       SCOPED_TRACE(scene.name);
       expect_right(scene.soup, scene.source, scene.targets.front(), 4, random, tally, true);
     }

@@ -423,7 +423,8 @@ TEST(Volume, sees_from_within_what_passes_through_it_and_what_lies_in_its_surfac
 TEST(Volume, of_nested_boxes_that_share_a_face_closes_and_counts_it_twice) {
   // A box of height 3 and one of height 1 on the same floor, once each: the inside winds once above 1 and twice below.
   const Faces solid = joined(box(0, 2, 0, 2, 0, 3), box(0, 2, 0, 2, 0, 1));
-  EXPECT_EQ(Scene(generate::soup_of(solid)).set_aside().size(), 1u);
+  const Scene scene(generate::soup_of(solid));
+  EXPECT_EQ(scene.set_aside().size(), 1u);
   const Weak_volume volume(generate::soup_of(solid));
   const auto level = [](const Rational& z) { return rectangle(Rational(1, 2), 1, Rational(1, 2), 1, z); };
   for (const Rational& z : {Rational(1, 2), Rational(2)})
