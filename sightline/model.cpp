@@ -74,13 +74,20 @@ void require_index(std::uint32_t index, std::size_t count) {
 
 std::function<bool()> end_of_budget(const Asking& asking) { return Time_limit(asking.budget).end(); }
 
-std::function<void(std::size_t, std::size_t)> progress_within_budget(const Asking& asking) {
+Asking::Progress progress_within_budget(const Asking& asking) {
   const std::function<bool()> is_over = end_of_budget(asking);
   if (!is_over) return asking.progress;
   return [is_over, progress = asking.progress](std::size_t done, std::size_t all) {
     if (is_over()) throw Out_of_budget("undecided: the budget ran out; give it more seconds, or a smaller scene");
     if (progress) progress(done, all);
   };
+}
+
+// ---- Answers
+
+std::string Answer::certificate(const Asking::Progress& progress) const {
+  if (!certify_) throw std::logic_error("no question made this answer: take that of see(), order() or another one");
+  return certify_(progress);
 }
 
 // ---- Parts
@@ -103,6 +110,12 @@ double Part::solid_angle(const Exact_point& eye) const {
 }
 
 // ---- The model
+
+void require_face(Face_id face, std::size_t count) {
+  if (face >= count)
+    throw std::out_of_range("face " + std::to_string(face) + " is not there: there are " + std::to_string(count) +
+                            ", counted from 0");
+}
 
 const std::vector<Left_out>& Model::Inside::left_out() const {
   return left_out_.get([&] {
@@ -129,13 +142,15 @@ Part Model::Inside::part(const Piece& piece) const {
   return part;
 }
 
-const Bsp_tree<Exact_traits>& Model::Inside::tree(const Asking& asking) const {
-  return tree_.get([&] {
-    Bsp_options options;
-    options.threads = asking.threads;
-    options.progress = progress_within_budget(asking);
-    return build_bsp(traits(), options);
-  });
+const Bsp_tree<Exact_traits>& Model::Inside::tree(int threads, const Asking::Progress& progress) const {
+  return tree_.get(
+      [&] {
+        Bsp_options options;
+        options.threads = threads;
+        options.progress = progress;
+        return build_bsp(traits(progress), options);
+      },
+      progress);
 }
 
 const Facts& Model::Inside::facts() const {
@@ -189,15 +204,16 @@ Model Model::of_polygons(std::span<const std::array<double, 3>> points, std::spa
 }
 
 std::size_t Model::face_count() const { return inside_->soup.face_count(); }
-const std::vector<Left_out>& Model::left_out() const { return inside_->left_out(); }
-const std::vector<Part>& Model::parts() const { return inside_->parts(); }
-const Polygon_soup& Model::soup() const { return inside_->soup; }
-const Scene& Model::scene() const { return inside_->scene(); }
-const std::shared_ptr<const Model::Inside>& Model::inside() const { return inside_; }
+const std::vector<Left_out>& Model::left_out() const& { return inside_->left_out(); }
+const std::vector<Part>& Model::parts() const& { return inside_->parts(); }
+const Polygon_soup& Model::soup() const& { return inside_->soup; }
+const Scene& Model::scene() const& { return inside_->scene(); }
+std::shared_ptr<const Model::Inside> Model::inside() const { return inside_; }
 
 Facts Model::facts() const { return inside_->facts(); }
 
 double Model::area(Face_id face) const {
+  require_face(face, face_count());
   double sum = 0;
   for (const Piece& piece : inside_->scene().pieces())
     if (piece.face == face) sum += inside_->part(piece).area();

@@ -9,26 +9,65 @@
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/sightline.h>
 
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
 namespace sightline {
 
+/// Errors: std::out_of_range where there is no such face.
+void require_face(Face_id face, std::size_t count);
+
 /// What is made once, when it is first asked for.
 template <class T>
 class Once {
  public:
+  /// The thread that asks first makes it. Others wait, and call waiting(0, 1) now and then: what that throws ends their
+  /// wait. Where making it throws, the next one that asks, or waits, makes it.
   template <class Make>
-  const T& get(const Make& make) const {
-    std::call_once(flag_, [&] { in_isolation([&] { value_.reset(new T(make())); }); });  // where it is made it stays
+  const T& get(const Make& make, const Asking::Progress& waiting = {}) const {
+    if (!is_made_.load(std::memory_order_acquire)) wait_or_make(make, waiting);
     return *value_;
   }
 
  private:
-  mutable std::once_flag flag_;
+  template <class Make>
+  void wait_or_make(const Make& make, const Asking::Progress& waiting) const {
+    std::unique_lock lock(mutex_);
+    while (!end_.wait_for(lock, std::chrono::milliseconds(10), [&] { return !is_being_made_; })) {
+      if (!waiting) continue;
+      lock.unlock();
+      waiting(0, 1);
+      lock.lock();
+    }
+    if (is_made_) return;
+    is_being_made_ = true;
+    lock.unlock();
+    const auto end = [&](bool is_made) {
+      lock.lock();
+      is_being_made_ = false;
+      is_made_.store(is_made, std::memory_order_release);
+      lock.unlock();
+      end_.notify_all();
+    };
+    try {
+      in_isolation([&] { value_.reset(new T(make())); });  // where it is made it stays
+    } catch (...) {
+      end(false);
+      throw;
+    }
+    end(true);
+  }
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable end_;  // of making it, one way or the other
+  mutable bool is_being_made_ = false;
+  mutable std::atomic<bool> is_made_ = false;
   mutable std::unique_ptr<T> value_;
 };
 
@@ -36,25 +75,27 @@ class Once {
 struct Model::Inside {
   explicit Inside(Polygon_soup from) : soup(std::move(from)) {}
 
+  // `waiting` is the progress of a question, within its budget, as Once has it.
+
   /// Errors: as Scene(), each time that it is asked for.
-  const Scene& scene() const {
-    return scene_.get([&] { return Scene(soup); });
+  const Scene& scene(const Asking::Progress& waiting = {}) const {
+    return scene_.get([&] { return Scene(soup); }, waiting);
   }
-  const Exact_traits& traits() const {
-    return traits_.get([&] { return Exact_traits(scene()); });
+  const Exact_traits& traits(const Asking::Progress& waiting = {}) const {
+    return traits_.get([&] { return Exact_traits(scene(waiting)); }, waiting);
   }
   const std::vector<Left_out>& left_out() const;
   const std::vector<Part>& parts() const;
   Part part(const Piece& piece) const;
-  const Bsp_tree<Exact_traits>& tree(const Asking& asking) const;
-  const Piece_boxes& boxes() const {
-    return boxes_.get([&] { return Piece_boxes(scene()); });
+  const Bsp_tree<Exact_traits>& tree(int threads, const Asking::Progress& progress) const;
+  const Piece_boxes& boxes(const Asking::Progress& waiting = {}) const {
+    return boxes_.get([&] { return Piece_boxes(scene(waiting)); }, waiting);
   }
-  const Occluders& occluders() const {
-    return occluders_.get([&] { return Occluders(scene()); });
+  const Occluders& occluders(const Asking::Progress& waiting = {}) const {
+    return occluders_.get([&] { return Occluders(scene(waiting)); }, waiting);
   }
-  const Ray_tracer& tracer() const {
-    return tracer_.get([&] { return Ray_tracer(scene()); });
+  const Ray_tracer& tracer(const Asking::Progress& waiting = {}) const {
+    return tracer_.get([&] { return Ray_tracer(scene(waiting)); }, waiting);
   }
   const Facts& facts() const;
 

@@ -5,7 +5,12 @@
 
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <map>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace sightline {
@@ -31,10 +36,23 @@ Polygon_soup soup_of_open_mesh(const Mesh& mesh) {
 
 /// Adds the parts of a model to a mesh, coordinates rounded to its scalars. Returns, for each part in order, its face
 /// in the mesh; an invalid handle where OpenMesh refused it, and says so on standard error: an edge of three parts,
-/// say, fits no mesh.
+/// say, fits no mesh. Errors, with nothing added: std::overflow_error for a coordinate beyond the mesh's scalars;
+/// std::invalid_argument for a part of more than three corners where the mesh is of triangles.
 template <class Mesh>
 std::vector<typename Mesh::FaceHandle> add_to_open_mesh(const Model& model, Mesh& mesh) {
   using Scalar = typename Mesh::Point::value_type;
+  const auto rounded = [](const Rational& x) { return static_cast<Scalar>(nearest_double(x)); };
+  for (const Part& part : model.parts()) {
+    if (Mesh::is_trimesh() && part.corners.size() > 3)
+      throw std::invalid_argument("a part of face " + std::to_string(part.face) + " has " +
+                                  std::to_string(part.corners.size()) +
+                                  " corners; take a mesh of polygons, or a model of triangles");
+    for (const Exact_point& p : part.corners)
+      for (const Rational& x : p)
+        if (!std::isfinite(rounded(x)))
+          throw std::overflow_error("face " + std::to_string(part.face) +
+                                    " has a coordinate beyond the mesh's numbers; take wider ones, or a smaller unit");
+  }
   std::map<Exact_point, typename Mesh::VertexHandle> at;
   std::vector<typename Mesh::FaceHandle> result;
   for (const Part& part : model.parts()) {
@@ -42,8 +60,7 @@ std::vector<typename Mesh::FaceHandle> add_to_open_mesh(const Model& model, Mesh
     for (const Exact_point& p : part.corners) {
       const auto [place, is_new] = at.try_emplace(p);
       if (is_new) {
-        const auto scalar = [&](std::size_t k) { return static_cast<Scalar>(nearest_double(p[k])); };
-        place->second = mesh.add_vertex({scalar(0), scalar(1), scalar(2)});
+        place->second = mesh.add_vertex({rounded(p[0]), rounded(p[1]), rounded(p[2])});
       }
       corners.push_back(place->second);
     }

@@ -12,14 +12,17 @@
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/kernel/threads.h>
 #include <sightline/model_inside.h>
+#include <sightline/told_text.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <map>
 #include <memory>
+#include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -28,48 +31,51 @@ namespace sightline {
 // ---- An order
 
 Visibility_order order(const Model& model, const Exact_point& eye, const Asking& asking) {
-  Asking collecting;  // which counts too
-  collecting.budget = asking.budget;
-  const auto in_time = progress_within_budget(collecting);
+  const Asking::Progress in_time = progress_within_budget(asking);
   const std::shared_ptr<const Model::Inside> inside = model.inside();
-  const Exact_traits& traits = inside->traits();
+  const Exact_traits& traits = inside->traits(in_time);
   const Scene& scene = inside->scene();
-  Visibility_order answer;
-  answer.eye = eye;
+  const Bsp_tree<Exact_traits>& tree =
+      inside->tree(asking.threads, in_time);  // which an earlier question may have made
+  std::vector<Part> parts;
   Order_cuts cuts;
-  traverse_with_cuts(traits, inside->tree(asking), traits.eye(eye), &scene, cuts,
-                     [&](const Fragment<Exact_traits>& fragment, Sign) {
-                       if (in_time) in_time(answer.parts.size(), answer.parts.size());
-                       const Piece& piece = scene.pieces()[fragment.polygon.piece];
-                       Part& part = answer.parts.emplace_back(Part{piece.face, piece.number, {}});
-                       for (const Corner<Exact_traits>& corner : fragment.polygon)
-                         part.corners.push_back(traits.position(*corner.vertex));
-                     });
-  answer.certificate_ = [inside, eye, parts = answer.parts, cuts = std::move(cuts)] {
-    Order_certificate certificate;
-    certificate.cuts = cuts;
-    certificate.eye = eye;
-    for (const Part& part : parts) certificate.fragments.push_back({part.face, part.piece, part.corners});
-    add_pieces(certificate, inside->scene());
-    return certificate_text(certificate);
+  traverse_with_cuts(traits, tree, traits.eye(eye), &scene, cuts, [&](const Fragment<Exact_traits>& fragment, Sign) {
+    if (in_time) in_time(parts.size(), tree.fragments.size());
+    const Piece& piece = scene.pieces()[fragment.polygon.piece];
+    Part& part = parts.emplace_back(Part{piece.face, piece.number, {}});
+    for (const Corner<Exact_traits>& corner : fragment.polygon) part.corners.push_back(traits.position(*corner.vertex));
+  });
+  auto certify = [inside, eye, parts, cuts = std::move(cuts)](const Asking::Progress& progress) {
+    return told_text(progress, [&](std::ostream& out, const Asking::Progress&) {
+      Order_certificate certificate;
+      certificate.cuts = cuts;
+      certificate.eye = eye;
+      for (const Part& part : parts) certificate.fragments.push_back({part.face, part.piece, part.corners});
+      add_pieces(certificate, inside->scene());
+      write_certificate(out, certificate);
+    });
   };
-  return answer;
+  return {Answer(std::move(certify)), eye, std::move(parts)};
 }
 
 // ---- The priority graph
 
 Priority priority_graph(const Model& model, const Asking& asking) {
+  const Asking::Progress in_time = progress_within_budget(asking);
   const std::shared_ptr<const Model::Inside> inside = model.inside();
-  const auto faces = std::make_shared<const Priority_relation<Exact_traits>>(inside->traits());
+  const auto faces = std::make_shared<const Priority_relation<Exact_traits>>(inside->traits(in_time));
   Implicit_priority_graph<Priority_relation<Exact_traits>> graph(*faces);
   Component_trees trees;
-  const Priority_components found = graph.find_components(&trees, progress_within_budget(asking));
-  Priority answer;
+  if (in_time) in_time(0, 1);  // few faces take no step that tells
+  const Priority_components found = graph.find_components(&trees, in_time);
+  auto certify = [inside, faces, found, trees = std::move(trees)](const Asking::Progress& progress) {
+    return told_text(progress, [&](std::ostream& out, const Asking::Progress&) {
+      write_certificate(out, graph_certificate(inside->scene(), *faces, found, trees));
+    });
+  };
+  Priority answer{Answer(std::move(certify)), {}};
   for (std::size_t c = 0; c < found.size(); ++c) answer.components.emplace_back(found[c].begin(), found[c].end());
   answer.cyclic = found.cyclic();
-  answer.certificate_ = [inside, faces, found, trees = std::move(trees)] {
-    return certificate_text(graph_certificate(inside->scene(), *faces, found, trees));
-  };
   return answer;
 }
 
@@ -122,7 +128,10 @@ std::vector<Face_id> Tracker::move_to(const Exact_point& viewpoint) {
   return changed;
 }
 
-bool Tracker::on_view(Face_id face) const { return inside_->nodes_on.at(face) > 0; }
+bool Tracker::on_view(Face_id face) const {
+  require_face(face, inside_->nodes_on.size());
+  return inside_->nodes_on[face] > 0;
+}
 
 std::vector<Face_id> Tracker::on_view() const {
   std::vector<Face_id> faces;
@@ -133,74 +142,107 @@ std::vector<Face_id> Tracker::on_view() const {
 
 // ---- What is seen from a point
 
-namespace {
+/// What a view keeps for what it is asked later.
+struct Seen::Inside {
+  std::shared_ptr<const Model::Inside> model;
+  Exact_view view;
+  Visible_surface<Exact_view> surface;
+  std::vector<Exact_point> field;
+  int threads;
+  Once<std::map<Face_id, std::array<double, 2>>> measures;  // areas and solid angles of faces that have any
 
-/// All around where there is no field.
-Seen seen_from(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
-               const Asking& asking) {
-  const std::shared_ptr<const Model::Inside> inside = model.inside();
-  const auto view = field.empty() ? std::make_shared<const Exact_view>(inside->scene(), eye)
-                                  : std::make_shared<const Exact_view>(inside->scene(), eye, field_of(field));
+  /// Of the view that was asked for, all around where there is no field.
+  static Seen answer(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
+                     const Asking& asking);
+  static const Inside& of(const Seen& seen) {
+    if (!seen.inside_) throw std::logic_error("no question made this view: take that of see() or see_in_field()");
+    return *seen.inside_;
+  }
+  static std::array<double, 2> measures_of(const Seen& seen, Face_id face);
+};
+
+Seen Seen::Inside::answer(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
+                          const Asking& asking) {
   Visible_options options;
   options.threads = asking.threads;
   options.progress = progress_within_budget(asking);
-  const auto surface = std::make_shared<const Visible_surface<Exact_view>>(
-      visible_surface(*view, inside->boxes(), field.empty() ? whole_sphere(*view) : field_of_view(*view), options));
-  Seen answer;
+  const std::shared_ptr<const Model::Inside> of = model.inside();
+  const Scene& scene = of->scene(options.progress);
+  const std::shared_ptr<Inside> inside(
+      new Inside{of,
+                 field.empty() ? Exact_view(scene, eye) : Exact_view(scene, eye, field_of(field)),
+                 {},
+                 field,
+                 asking.threads,
+                 {}});
+  const Exact_view& view = inside->view;
+  inside->surface = visible_surface(view, of->boxes(options.progress),
+                                    field.empty() ? whole_sphere(view) : field_of_view(view), options);
+  const auto* surface = &inside->surface;
+  Seen answer{};
   answer.eye = eye;
   answer.visible = surface->visible;
   answer.from_behind = surface->from_behind;
   for (const auto& part : surface->parts) {
     if (part.piece == surface->nothing) continue;
-    const Piece& piece = inside->scene().pieces()[part.piece];
+    const Piece& piece = scene.pieces()[part.piece];
     Seen::Visible_part& seen = answer.parts.emplace_back();
     seen.face = piece.face;
     seen.piece = piece.number;
-    seen.corners = vertices(*view, *surface, part);
-    seen.from_front = view->eye_side(part.piece) == CGAL::POSITIVE;
+    seen.corners = vertices(view, *surface, part);
+    seen.from_front = view.eye_side(part.piece) == CGAL::POSITIVE;
   }
-  answer.measures_ = [made = std::make_shared<Once<std::map<Face_id, std::array<double, 2>>>>()](const Seen& seen,
-                                                                                                 Face_id face) {
-    const auto& measures = made->get([&] {
-      std::map<Face_id, std::array<double, 2>> sums;
-      for (const Seen::Visible_part& part : seen.parts) {
-        if (!part.from_front) continue;
-        std::array<double, 2>& sum = sums[part.face];
-        sum[0] += part.area();
-        sum[1] += part.solid_angle(seen.eye);
-      }
-      return sums;
+  static_cast<Answer&>(answer) = Answer([inside](const Asking::Progress& progress) {
+    return told_text(progress, [&](std::ostream& out, const Asking::Progress& steps) {
+      write_visible_certificate(out, inside->view, inside->surface, inside->view.eye(), inside->field, steps);
     });
-    const auto found = measures.find(face);
-    return found == measures.end() ? std::array<double, 2>{} : found->second;
-  };
-  answer.certificate_ = [inside, view, surface, eye, field] {
-    std::ostringstream out;
-    write_visible_certificate(out, *view, *surface, eye, field);
-    return std::move(out).str();
-  };
-  answer.lines_ = [inside, view, surface, threads = asking.threads](const Line_progress& progress) {
-    std::vector<Seen::Line> lines;
-    for (Drawn_line& drawn : line_drawing(*view, *surface, inside->boxes(), threads, progress)) {
-      Seen::Line& line = lines.emplace_back(Seen::Line{drawn.ends, drawn.kind, std::move(drawn.faces), {}});
-      for (const Line_part& part : drawn.parts) {
-        Seen::Line::Stretch& stretch = line.stretches.emplace_back(Seen::Line::Stretch{part.from, part.to, {}});
-        if (part.hidden_by != Line_part::nothing) stretch.hidden_by = inside->scene().pieces()[part.hidden_by].face;
-      }
-    }
-    return lines;
-  };
+  });
+  answer.inside_ = inside;
   return answer;
 }
 
-}  // namespace
+std::array<double, 2> Seen::Inside::measures_of(const Seen& seen, Face_id face) {
+  const Inside& inside = of(seen);
+  require_face(face, inside.model->soup.face_count());
+  const auto& measures = inside.measures.get([&] {
+    std::map<Face_id, std::array<double, 2>> sums;
+    for (const Seen::Visible_part& part : seen.parts) {
+      if (!part.from_front) continue;
+      std::array<double, 2>& sum = sums[part.face];
+      sum[0] += part.area();
+      sum[1] += part.solid_angle(seen.eye);
+    }
+    return sums;
+  });
+  const auto found = measures.find(face);
+  return found == measures.end() ? std::array<double, 2>{} : found->second;
+}
 
-Seen see(const Model& model, const Exact_point& eye, const Asking& asking) { return seen_from(model, eye, {}, asking); }
+double Seen::area(Face_id face) const { return Inside::measures_of(*this, face)[0]; }
+double Seen::solid_angle(Face_id face) const { return Inside::measures_of(*this, face)[1]; }
+
+std::vector<Seen::Line> Seen::lines(const Asking::Progress& progress) const {
+  const Inside& inside = Inside::of(*this);
+  const std::vector<Piece>& pieces = inside.model->scene().pieces();
+  std::vector<Line> lines;
+  for (Drawn_line& drawn : line_drawing(inside.view, inside.surface, inside.model->boxes(), inside.threads, progress)) {
+    Line& line = lines.emplace_back(Line{drawn.ends, drawn.kind, std::move(drawn.faces), {}});
+    for (const Line_part& part : drawn.parts) {
+      Line::Stretch& stretch = line.stretches.emplace_back(Line::Stretch{part.from, part.to, {}});
+      if (part.hidden_by != Line_part::nothing) stretch.hidden_by = pieces[part.hidden_by].face;
+    }
+  }
+  return lines;
+}
+
+Seen see(const Model& model, const Exact_point& eye, const Asking& asking) {
+  return Seen::Inside::answer(model, eye, {}, asking);
+}
 
 Seen see_in_field(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
                   const Asking& asking) {
   if (field.size() < 3) throw std::invalid_argument("a field of view has three rays or more");
-  return seen_from(model, eye, field, asking);
+  return Seen::Inside::answer(model, eye, field, asking);
 }
 
 // ---- Rays
@@ -211,11 +253,11 @@ namespace {
 template <class Found, class Ray, class Find>
 std::vector<Found> of_each_ray(const Model& model, std::span<const Ray> rays, const Asking& asking, Find find) {
   constexpr std::size_t block = 256;
-  const auto progress = progress_within_budget(asking);
+  const Asking::Progress progress = progress_within_budget(asking);
   std::vector<Found> found(rays.size());
   std::atomic<std::size_t> done{0};
   run_with_threads(asking.threads, [&] {
-    const Ray_tracer& tracer = model.inside()->tracer();
+    const Ray_tracer& tracer = model.inside()->tracer(progress);
     parallel_for((rays.size() + block - 1) / block, [&](std::size_t b) {
       Ray_counters counters;
       const std::size_t end = std::min(rays.size(), (b + 1) * block);

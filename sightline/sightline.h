@@ -28,9 +28,10 @@ class Scene;
 
 /// How a question is asked. The answer is the same at any number of threads.
 struct Asking {
-  int threads = 0;                                                  ///< 0: as many as there are processors
-  std::function<void(std::size_t done, std::size_t all)> progress;  ///< any thread may call it; what it throws ends the
-                                                                    ///< question, and comes out of it
+  using Progress = std::function<void(std::size_t done, std::size_t all)>;
+  int threads = 0;    ///< 0: as many as there are processors
+  Progress progress;  ///< any thread may call it; what it throws ends the question, and comes out of it. A step may
+                      ///< count from 0 again; one that waits for another question's is at 0 of 1
   double budget = 0;  ///< seconds; 0: none. What weak visibility has not decided then is undecided; other questions
                       ///< throw Out_of_budget
   bool two_sided = false;  ///< of weak visibility, and along a path: faces seen from behind count too
@@ -39,7 +40,7 @@ struct Asking {
 /// Whether the seconds of a question are over, from now on; empty where it has no budget.
 std::function<bool()> end_of_budget(const Asking& asking);
 /// The question's progress, which ends it by Out_of_budget once its seconds are over, from now on.
-std::function<void(std::size_t done, std::size_t all)> progress_within_budget(const Asking& asking);
+Asking::Progress progress_within_budget(const Asking& asking);
 
 /// A face that is not modelled, and why.
 struct Left_out {
@@ -87,15 +88,23 @@ class Model {
                            std::span<const std::uint32_t> sizes);
 
   std::size_t face_count() const;  ///< of the input
-  const std::vector<Left_out>& left_out() const;
-  const std::vector<Part>& parts() const;  ///< what is modelled: each kept face in convex parts, in order
-  double area(Face_id face) const;         ///< of all its parts; 0 for one that was left out
-  const Polygon_soup& soup() const;
-  const Scene& scene() const;  ///< for questions that this header does not ask; as long as a copy of the model is there
-  Facts facts() const;         ///< Cost: O(edges), once
+  const std::vector<Left_out>& left_out() const&;
+  const std::vector<Part>& parts() const&;  ///< what is modelled: each kept face in convex parts, in order
+  /// Of all parts of a face; 0 for one that was left out. Errors: std::out_of_range where there is no such face.
+  double area(Face_id face) const;
+  const Polygon_soup& soup() const&;
+  const Scene& scene()
+      const&;           ///< for questions that this header does not ask; as long as a copy of the model is there
+  Facts facts() const;  ///< Cost: O(edges), once
+
+  // Of a temporary model none of them, which would refer to what is gone: give it a name.
+  void left_out() const&& = delete;
+  void parts() const&& = delete;
+  void soup() const&& = delete;
+  void scene() const&& = delete;
 
   struct Inside;
-  const std::shared_ptr<const Inside>& inside() const;   ///< for what is behind the door
+  std::shared_ptr<const Inside> inside() const;          ///< for what is behind the door
   explicit Model(std::shared_ptr<const Inside> inside);  ///< the same; its scene is made when it is first asked for
 
  private:
@@ -105,9 +114,17 @@ class Model {
 /// What every answer can show for itself. It keeps what it needs of the model.
 class Answer {
  public:
-  /// What verify() and `sightline verify` take, as text. Made when asked for. Cost: its length.
-  std::string certificate() const { return certificate_(); }
-  std::function<std::string()> certificate_;
+  using Certify = std::function<std::string(const Asking::Progress&)>;
+  Answer() = default;
+  explicit Answer(Certify certify) : certify_(std::move(certify)) {}
+
+  /// What verify() and `sightline verify` take, as text. Made when asked for; any thread calls `progress` now and then,
+  /// and what that throws ends it: progress_within_budget() has a budget, too. Errors: std::logic_error where no
+  /// question made the answer. Cost: its length, where the question does not say more.
+  std::string certificate(const Asking::Progress& progress = {}) const;
+
+ private:
+  Certify certify_;
 };
 
 /// An exact back-to-front order of all faces; where faces cross or hide each other in turn they are cut.
@@ -134,7 +151,8 @@ class Tracker {
   Tracker& operator=(Tracker&&) noexcept;
   /// The faces that came to be on-view or ceased to be, sorted. A viewpoint in a face's plane is not in front of it.
   std::vector<Face_id> move_to(const Exact_point& viewpoint);
-  bool on_view(Face_id face) const;      ///< before the first move: false
+  /// Before the first move: false. Errors: std::out_of_range where there is no such face.
+  bool on_view(Face_id face) const;
   std::vector<Face_id> on_view() const;  ///< sorted
 
  private:
@@ -157,10 +175,10 @@ struct Seen : Answer {
   /// all of them are visible, and the part is of one of them, of one seen from its front if there is one.
   std::vector<Visible_part> parts;
   /// Of a face's parts that are seen from its front. Cost: of all faces when it is first asked; then O(log n), whatever
-  /// becomes of `parts`.
-  double area(Face_id face) const { return measures_(*this, face)[0]; }
-  double solid_angle(Face_id face) const { return measures_(*this, face)[1]; }  ///< the same in steradians, of 4 pi
-  std::function<std::array<double, 2>(const Seen&, Face_id)> measures_;
+  /// becomes of `parts`. Errors: std::out_of_range where the model has no such face; std::logic_error where no question
+  /// made the answer.
+  double area(Face_id face) const;
+  double solid_angle(Face_id face) const;  ///< the same in steradians, of 4 pi
 
   /// An edge of the scene, or a line where faces cross, in the drawing of what is seen.
   struct Line {
@@ -174,15 +192,18 @@ struct Seen : Answer {
     std::vector<Stretch> stretches;  ///< from end to end
   };
   /// Edges of which something is in the view, and what is seen of lines where faces cross. Made when asked for; any
-  /// thread tells how much is done, and what `progress` throws ends it.
-  std::vector<Line> lines(const std::function<void(std::size_t done, std::size_t all)>& progress = {}) const {
-    return lines_(progress);
-  }
-  std::function<std::vector<Line>(const std::function<void(std::size_t done, std::size_t all)>&)> lines_;
+  /// thread tells how much is done, and what `progress` throws ends it. Errors: as area().
+  std::vector<Line> lines(const Asking::Progress& progress = {}) const;
+
+  struct Inside;  ///< for what is behind the door
+
+ private:
+  std::shared_ptr<const Inside> inside_;
 };
 Seen see(const Model& model, const Exact_point& eye, const Asking& asking = {});
-/// The same within the cone of some rays: each three in this order turn one way, and all are within less than a half
-/// space. Errors: std::invalid_argument for other rays.
+/// The same within the cone of some rays, three or more, all within less than a half space: counterclockwise around its
+/// inside as seen from out there, looking back at the eye (each three in this order are positively oriented). Errors:
+/// std::invalid_argument for other rays, and for these in the opposite order.
 Seen see_in_field(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
                   const Asking& asking = {});
 

@@ -1,4 +1,5 @@
 #include <sightline/model_inside.h>
+#include <sightline/told_text.h>
 
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
@@ -9,8 +10,9 @@
 
 #include <array>
 #include <memory>
-#include <sstream>
+#include <ostream>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace sightline {
@@ -58,16 +60,17 @@ Combined combine(std::string_view operation, const std::vector<Model>& solids, s
   result.soup.file = std::string(operation);
   options.progress = {};
   options.keep_fragments = true;
-  const auto certificate = [solids, options, threads = asking.threads] {
-    const Operands again(soups_of(solids));
-    std::ostringstream out;
-    run_with_threads(threads, [&] {
-      write_solid_certificate(out, solid_certificate(again, options, set_operation(again, options)));
+  auto certify = [solids, options, threads = asking.threads](const Asking::Progress& progress) {
+    return told_text(progress, [&](std::ostream& out, const Asking::Progress& steps) {
+      const Operands again(soups_of(solids));
+      Set_options told = options;
+      told.progress = steps;
+      run_with_threads(
+          threads, [&] { write_solid_certificate(out, solid_certificate(again, told, set_operation(again, told))); });
     });
-    return std::move(out).str();
   };
-  return {
-      {certificate}, Model(std::make_shared<const Model::Inside>(std::move(result.soup))), std::move(sources), volume};
+  return {Answer(std::move(certify)), Model(std::make_shared<const Model::Inside>(std::move(result.soup))),
+          std::move(sources), volume};
 }
 
 std::array<double, 2> Combined::area() const { return sightline::area(model.soup()); }

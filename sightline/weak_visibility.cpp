@@ -1,4 +1,5 @@
 #include <sightline/model_inside.h>
+#include <sightline/told_text.h>
 
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/along/along.h>
@@ -11,6 +12,7 @@
 
 #include <atomic>
 #include <list>
+#include <ostream>
 #include <stdexcept>
 #include <utility>
 
@@ -30,14 +32,13 @@ std::vector<Weak_source> weak_sources(const Occluders& occluders,
 /// What was found of faces, with its certificate.
 Weak_visibility weak_answer(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
                             const Asking& asking, std::shared_ptr<const Weakly_visible> found) {
-  Weak_visibility answer;
-  answer.visible = found->visible;
-  answer.hidden = found->hidden;
-  answer.undecided = found->undecided;
-  answer.certificate_ = [inside = model.inside(), sources, found, two_sided = asking.two_sided] {
-    return certificate_text(weak_certificate(inside->scene(), sources, two_sided, *found));
+  auto certify = [inside = model.inside(), sources, found,
+                  two_sided = asking.two_sided](const Asking::Progress& progress) {
+    return told_text(progress, [&](std::ostream& out, const Asking::Progress&) {
+      write_certificate(out, weak_certificate(inside->scene(), sources, two_sided, *found));
+    });
   };
-  return answer;
+  return {Answer(std::move(certify)), found->visible, found->hidden, found->undecided};
 }
 
 /// Faces that are seen from polygons, by lines, and by events where that helps.
@@ -76,7 +77,7 @@ Weak_visibility seen_from_solids(const Model& model, const std::vector<Polygon_s
                                  Weakly_visible (*search)(const Occluders&, const std::vector<Weak_source>&,
                                                           const Asking&)) {
   const std::function<bool()> out_of_time = end_of_budget(asking);
-  const Occluders& occluders = model.inside()->occluders();
+  const Occluders& occluders = model.inside()->occluders(asking.progress);
   std::list<Weak_volume> volumes;
   const auto dividing = [&](std::size_t, std::size_t) {
     if (asking.progress) asking.progress(0, 1);  // which may end the question
@@ -144,24 +145,26 @@ Seen_along see_along(const Model& model, const Exact_point& from, const Exact_po
   options.two_sided = asking.two_sided;
   options.threads = asking.threads;
   options.progress = progress_within_budget(asking);
-  Visible_along found = visible_along(inside->occluders(), from, to, options);
-  Seen_along answer;
+  Visible_along found = visible_along(inside->occluders(options.progress), from, to, options);
+  std::vector<Seen_along::Event> events;
   for (Along_event& event : found.events) {
-    Seen_along::Event& told = answer.events.emplace_back(Seen_along::Event{std::move(event.t), {}});
+    Seen_along::Event& told = events.emplace_back(Seen_along::Event{std::move(event.t), {}});
     for (Along_event::Change& change : event.changes)
       told.changes.push_back(
           {change.face, change.before, change.at, change.after, name(change.kind), std::move(change.edges)});
   }
-  answer.at_start = std::move(found.at_start);
-  answer.at_end = std::move(found.at_end);
-  answer.visible = std::move(found.visible);
   options.progress = {};
   options.with_proofs = true;
-  answer.certificate_ = [inside, from, to, options] {
-    const Visible_along proved = visible_along(inside->occluders(), from, to, options);
-    return certificate_text(along_certificate(inside->scene(), proved, from, to, options.two_sided));
+  auto certify = [inside, from, to, options](const Asking::Progress& progress) {
+    return told_text(progress, [&](std::ostream& out, const Asking::Progress& steps) {
+      Along_options told = options;
+      told.progress = steps;
+      const Visible_along proved = visible_along(inside->occluders(), from, to, told);
+      write_certificate(out, along_certificate(inside->scene(), proved, from, to, told.two_sided));
+    });
   };
-  return answer;
+  return {Answer(std::move(certify)), std::move(events), std::move(found.at_start), std::move(found.at_end),
+          std::move(found.visible)};
 }
 
 }  // namespace sightline

@@ -10,7 +10,7 @@ namespace {
 
 template <class Found>
 Certifier certifier(const Found& found) {
-  return {found.certificate_};
+  return {found};
 }
 
 /// The parts of an answer, which keeps them.
@@ -36,12 +36,12 @@ py::tuple graph_of(const Model& model, const Question& question) {
 
 /// A drawing that is made when it is asked for.
 struct Drawing {
-  decltype(Seen::lines_) lines;
+  std::shared_ptr<const Seen> seen;
 };
 
 py::list lines_of(const Drawing& drawing) {
   const std::vector<Seen::Line> lines =
-      answer_to(plain_question(), [make = drawing.lines](const Asking& asking) { return make(asking.progress); });
+      answer_to(plain_question(), [seen = drawing.seen](const Asking& asking) { return seen->lines(asking.progress); });
   py::list all;
   for (const Seen::Line& line : lines) {
     py::list stretches;
@@ -67,7 +67,7 @@ py::tuple seen_by(const Model& model, const py::object& at, const py::object& fr
   });
   Parts parts = parts_in(found);
   parts.from_front = [found](std::size_t i) { return found->parts[i].from_front; };
-  return py::make_tuple(ids(found->visible), ids(found->from_behind), std::move(parts), Drawing{found->lines_},
+  return py::make_tuple(ids(found->visible), ids(found->from_behind), std::move(parts), Drawing{found},
                         certifier(*found));
 }
 
@@ -157,7 +157,8 @@ std::vector<std::vector<Exact_point>> sources_of(const Model& model, const py::o
 
 void add_answers(py::module_& module) {
   py::class_<Certifier>(module, "Certifier").def("text", [](const Certifier& certifier) {
-    return answer_to(plain_question(), [make = certifier.text](const Asking&) { return make(); });
+    return answer_to(plain_question(),
+                     [answer = certifier.answer](const Asking& asking) { return answer.certificate(asking.progress); });
   });
 
   py::class_<Tracker>(module, "Tracker")

@@ -28,7 +28,7 @@ struct Parts {
 
 /// A certificate that is made when it is asked for.
 struct Certifier {
-  std::function<std::string()> text;
+  Answer answer;
 };
 
 template <class T>

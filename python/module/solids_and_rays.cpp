@@ -122,7 +122,7 @@ py::tuple combined(const std::string& operation, const py::list& solids, const s
     sources.mutable_at(static_cast<py::ssize_t>(f), 0) = found.faces[f].first;
     sources.mutable_at(static_cast<py::ssize_t>(f), 1) = found.faces[f].second;
   }
-  return py::make_tuple(found.model, sources, fraction(found.volume), Certifier{found.certificate_});
+  return py::make_tuple(found.model, sources, fraction(found.volume), Certifier{found});
 }
 
 }  // namespace

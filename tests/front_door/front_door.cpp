@@ -1,11 +1,14 @@
 // The front door: answers agree with what stands behind it, with definitions, and with arithmetic done by hand.
 
+#include "models.h"
+
 #include <sightline/harness/generate/families.h>
 #include <sightline/sightline.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -15,30 +18,12 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace {
 
 using namespace sightline;
-
-using Points = std::vector<std::array<double, 3>>;
-
-/// The cube [-1, 1]^3, its faces seen from outside: -x, +x, -y, +y, -z, +z.
-Model cube() {
-  const Points points{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-                      {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
-  const std::vector<std::uint32_t> corners{0, 4, 7, 3, 1, 2, 6, 5, 0, 1, 5, 4, 3, 7, 6, 2, 0, 3, 2, 1, 4, 5, 6, 7};
-  return Model::of_polygons(points, corners, std::vector<std::uint32_t>(6, 4));
-}
-
-/// A floor, a lid above it that hides it in part, a lamp above both that looks down, and a sliver that is none.
-Model lamp_and_lid() {
-  const Points points{{-4, -4, 0}, {4, -4, 0}, {4, 4, 0},   {-4, 4, 0}, {-1, -1, 1}, {1, -1, 1},
-                      {1, 1, 1},   {-1, 1, 1}, {-1, -1, 3}, {1, -1, 3}, {1, 1, 3},   {-1, 1, 3}};
-  const std::vector<std::uint32_t> corners{0, 1, 2, 3, 4, 5, 6, 7, 11, 10, 9, 8, 0, 1, 1};
-  const std::vector<std::uint32_t> sizes{4, 4, 4, 3};
-  return Model::of_polygons(points, corners, sizes);
-}
 
 TEST(Model, knows_its_faces_areas_and_what_it_left_out) {
   const Model model = lamp_and_lid();
@@ -50,6 +35,34 @@ TEST(Model, knows_its_faces_areas_and_what_it_left_out) {
   EXPECT_DOUBLE_EQ(model.area(0), 64);
   EXPECT_DOUBLE_EQ(model.area(1), 4);
   EXPECT_EQ(model.area(3), 0);
+  EXPECT_THROW(model.area(4), std::out_of_range);
+}
+
+template <class Of>
+concept gives_parts = requires(Of&& of) {
+  std::forward<Of>(of).parts();
+};
+template <class Of>
+concept gives_left_out = requires(Of&& of) {
+  std::forward<Of>(of).left_out();
+};
+template <class Of>
+concept gives_its_soup = requires(Of&& of) {
+  std::forward<Of>(of).soup();
+};
+template <class Of>
+concept gives_its_scene = requires(Of&& of) {
+  std::forward<Of>(of).scene();
+};
+
+TEST(Model, refers_to_nothing_of_a_temporary) {
+  // for (const Part& part : Model::read(file).parts()) would go through parts that are gone.
+  static_assert(gives_parts<const Model&> && gives_parts<Model&> && !gives_parts<Model> && !gives_parts<const Model>);
+  static_assert(gives_left_out<const Model&> && !gives_left_out<Model> && !gives_left_out<const Model>);
+  static_assert(gives_its_soup<const Model&> && !gives_its_soup<Model> && !gives_its_soup<const Model>);
+  static_assert(gives_its_scene<const Model&> && !gives_its_scene<Model> && !gives_its_scene<const Model>);
+  const auto inside = cube().inside();  // and keeps this
+  EXPECT_EQ(Model(inside).face_count(), 6u);
 }
 
 TEST(Model, says_what_it_is_made_of) {
@@ -83,6 +96,25 @@ TEST(Model, refuses_what_is_no_scene) {
   EXPECT_THROW(Model::of_polygons(points, corners, std::vector<std::uint32_t>{4}), std::invalid_argument);
   EXPECT_THROW(Model::of_polygons(points, corners, std::vector<std::uint32_t>{2}), std::invalid_argument);
   EXPECT_THROW(Model::read("no such file.obj"), std::runtime_error);
+}
+
+TEST(Questions, refuse_a_coordinate_that_is_no_number) {
+  const Model model = lamp_and_lid();
+  Tracker tracker = track(model);
+  for (const double x : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    EXPECT_THROW(see(model, {x, 1, 2}), std::domain_error);
+    EXPECT_THROW(order(model, {1, x, 2}), std::domain_error);
+    EXPECT_THROW(see_along(model, {0, 0, 10}, {0, 0, x}), std::domain_error);
+    EXPECT_THROW(tracker.move_to({1, 2, static_cast<float>(x)}), std::domain_error);
+    EXPECT_THROW(trace(model, std::vector<Exact_ray>{{{0, x, 0}, {0, 0, 1}}}), std::domain_error);
+    EXPECT_THROW(weakly_visible(model, {{{0, 0, 0}, {1, x, 0}, {0, 1, 0}}}), std::domain_error);
+  }
+  try {
+    see(model, {1, std::nan(""), 2});
+    FAIL();
+  } catch (const std::domain_error& error) {
+    EXPECT_EQ(std::string(error.what()), "a point's y: nan is no coordinate; give the point finite ones");
+  }
 }
 
 TEST(Model, reads_a_file) {
@@ -146,6 +178,12 @@ TEST(Tracker, agrees_with_the_definition_on_a_path_around_a_cube) {
     EXPECT_EQ(changed, difference);
     before = expected;
   }
+  try {
+    tracker.on_view(6);
+    FAIL();
+  } catch (const std::out_of_range& error) {
+    EXPECT_EQ(std::string(error.what()), "face 6 is not there: there are 6, counted from 0");
+  }
 }
 
 TEST(See, from_inside_a_cube_turned_inwards_all_of_it_shares_out_the_sphere) {
@@ -208,6 +246,9 @@ TEST(See, what_is_hidden_has_no_area) {
   // From (0, 0, 2) the lid hides the square [-2, 2]^2 of the floor.
   EXPECT_NEAR(seen.area(0), 64 - 16, 1e-12);
   EXPECT_NEAR(seen.area(1), 4, 1e-12);
+  EXPECT_EQ(seen.area(3), 0) << "it was left out";
+  EXPECT_THROW(seen.area(4), std::out_of_range);
+  EXPECT_THROW(seen.solid_angle(4), std::out_of_range);
 }
 
 TEST(See, lists_all_faces_of_one_plane_that_are_seen_and_gives_the_part_to_one) {
@@ -410,25 +451,6 @@ TEST(Weak_visibility, is_possible_at_least_where_it_is) {
   EXPECT_THROW(sources_of(model, 3), std::out_of_range);
 }
 
-TEST(Answers, say_that_the_budget_ran_out) {
-  const Model model = lamp_and_lid();
-  Asking hasty;
-  hasty.budget = 1e-9;
-  EXPECT_THROW(order(model, {0, 0, 10}, hasty), Out_of_budget);
-  EXPECT_THROW(see(model, {0, 0, 10}, hasty), Out_of_budget);
-  EXPECT_THROW(see_along(model, {0, 0, 10}, {0, 0, 2}, hasty), Out_of_budget);
-  EXPECT_THROW(combine("union", {cube(), cube()}, "positive", hasty), Out_of_budget);
-  const Weak_visibility open = weakly_visible(model, 2, hasty);
-  EXPECT_EQ(open.visible.size() + open.hidden.size() + open.undecided.size(), 3u);
-  EXPECT_FALSE(open.undecided.empty());
-  EXPECT_TRUE(verify(model, open.certificate()).accepted);
-  Asking patient;
-  patient.budget = 1e9;
-  EXPECT_EQ(order(model, {0, 0, 10}, patient).parts.size(), 3u);
-  EXPECT_THROW(order(model, {0, 0, 10}, hasty), Out_of_budget);  // though its tree is there
-  EXPECT_TRUE(weakly_visible(model, 2, patient).undecided.empty());
-}
-
 TEST(Answers, are_the_same_at_any_number_of_threads_and_outlive_the_model) {
   Seen one, two;
   std::string order_certificate;
@@ -440,18 +462,6 @@ TEST(Answers, are_the_same_at_any_number_of_threads_and_outlive_the_model) {
   }
   EXPECT_EQ(one.certificate(), two.certificate());
   EXPECT_EQ(order_certificate, order(lamp_and_lid(), {1, 2, 3}, {1, {}}).certificate());
-}
-
-TEST(Answers, what_progress_throws_ends_the_question) {
-  struct Enough {};
-  const Asking impatient{1, [](std::size_t, std::size_t) { throw Enough(); }};
-  const Model model = lamp_and_lid();
-  EXPECT_THROW(order(model, {0, 0, 10}, impatient), Enough);
-  EXPECT_THROW(see(model, {0, 0, 10}, impatient), Enough);
-  EXPECT_THROW(see_along(model, {0, 0, 10}, {0, 0, 2}, impatient), Enough);
-  EXPECT_THROW(combine("union", {cube(), cube()}, "positive", impatient), Enough);
-  EXPECT_THROW(weakly_visible(model, 2, impatient), Enough);
-  EXPECT_EQ(order(model, {0, 0, 10}).parts.size(), 3u);  // and the model is as it was
 }
 
 }  // namespace
