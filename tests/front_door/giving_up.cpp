@@ -177,7 +177,9 @@ TEST(Answers, are_made_by_who_waits_where_who_made_them_gave_up) {
   });
   while (!is_making) std::this_thread::yield();
   const auto wait = [&](std::size_t, std::size_t all) {
-    if (!is_waiting) EXPECT_EQ(all, 1u);  // as the one that waits is told
+    if (!is_waiting) {
+      EXPECT_EQ(all, 1u) << "as one that waits is told";
+    }
     is_waiting = true;
   };
   EXPECT_EQ(order(model, {1, 2, 10}, {1, wait}).parts.size(), 3u);
