@@ -12,7 +12,7 @@ bool closed(const Polygon_soup& soup) {
   // The oracle: the boundary chain, in rationals.
   const Scene scene(soup);
   Chain chain;
-  for (const Piece& piece : scene.pieces()) chain.add(corners_of(scene, piece));
+  for (const Piece& piece : scene.pieces()) chain.add(scene.corner_points(piece));
   for (const Set_aside& entry : scene.set_aside()) {  // as the file has them
     if (entry.reason != Set_aside_reason::duplicate) continue;
     std::vector<Exact_point> loop;

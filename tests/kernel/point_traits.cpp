@@ -93,7 +93,7 @@ void check_exact_model() {
     const Traits traits(scene);
     Polygon_store<Traits> store;
     for (std::uint32_t i = 0; i < traits.piece_count(); ++i) {
-      EXPECT_EQ(positions(traits, store.piece(traits, i)), corners_of(scene, scene.pieces()[i]));
+      EXPECT_EQ(positions(traits, store.piece(traits, i)), scene.corner_points(scene.pieces()[i]));
       std::vector<Plane> planes;
       for (std::uint32_t j = 0; j < traits.piece_count(); ++j)
         planes.push_back(random() % 2 ? traits.supporting_plane(j) : traits.supporting_plane(j).opposite());
