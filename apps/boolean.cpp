@@ -456,7 +456,8 @@ void add_boolean(Command program) {
       .show_default();
   command
       .add_option("--coordinates", a->coordinates,
-                  "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
+                  "what decimals of the solids mean: exact (0.1 is 1/10) or double (rounded first, as in other "
+                  "programs)")
       .check(one_of({"exact", "double"}))
       .show_default();
   command.add_option("--repair", a->repair, "what is done to a surface that is not closed: none, so it is refused")

@@ -25,7 +25,7 @@ struct Trace_arguments {
 /// What each ray meets, and what that took.
 struct Traced {
   std::vector<std::vector<Face_hit>> hits;
-  Json counters;
+  Json counters = Json::object();
   double prepare_seconds = 0, seconds = 0;
 };
 

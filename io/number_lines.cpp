@@ -12,6 +12,16 @@
 
 namespace sightline {
 
+namespace {
+
+/// What is between two commas, in the text that was asked.
+struct No_number : std::invalid_argument {
+  No_number(const std::string& message, std::string_view token_) : std::invalid_argument(message), token(token_) {}
+  std::string_view token;
+};
+
+}  // namespace
+
 std::vector<Rational> numbers_in(std::string_view text, const std::string& wanted) {
   std::vector<Rational> numbers;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -25,8 +35,12 @@ std::vector<Rational> numbers_in(std::string_view text, const std::string& wante
         const Text_reader reader(input, Text_reader::Comments::hash);
         numbers.push_back(value_of(parse_decimal(reader, input.bytes)));
       }
-    } catch (const std::exception&) {
-      throw std::invalid_argument(wanted + " (decimals or p/q); " + quoted(token) + " is none");
+    } catch (const std::exception& error) {
+      const bool is_far = std::string_view(error.what()).find("exponent out of range") != std::string_view::npos;
+      throw No_number(wanted + " (decimals or p/q" +
+                          (is_far ? ", exponents within +-" + std::to_string(largest_decimal_exponent) : "") + "); " +
+                          quoted(token) + " is none",
+                      token);
     }
     begin = end + 1;
   }
@@ -68,8 +82,9 @@ void read_number_lines(const Input& input, const std::string& wanted,
     std::vector<Rational> numbers;
     try {
       numbers = numbers_in(line, "a line wants " + wanted);
-    } catch (const std::invalid_argument& error) {
-      reader.fail(begin, error.what());
+    } catch (const No_number& error) {  // which is in `line`: without blanks that is as long as what it was read from
+      const auto at = static_cast<std::size_t>(error.token.data() - line.data());
+      reader.fail(line.size() == begin.size() ? begin.substr(at, error.token.size()) : begin, error.what());
     }
     if (!take(numbers)) reader.fail(begin, "expected " + wanted + ", found " + sightline::quoted(line));
     any = true;

@@ -25,7 +25,7 @@ Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces, 
     weights[view.on_view] += weight;
     total += weight;
   }
-  if (sgn(total) == 0) throw std::invalid_argument("no view has a weight");
+  if (sgn(total) == 0) throw std::invalid_argument("no view has a weight; give one of them a weight above zero");
   Decision_tree tree;
   if (bit_length(total) <= 57)  // a path has at most 32 tests, so all sums stay below 2^62
     decision_tree_detail::fill<std::int64_t>(tree, weights, total, most_states,

@@ -3,6 +3,7 @@
 #include "page.h"
 
 #include "../support/page.h"
+#include "table.h"
 
 #include <sightline/harness/report/page.h>
 
@@ -129,8 +130,7 @@ std::string verdict_html(const Json& document, Json& views) {
                   document["limits"]["seconds"].get<double>(), document["limits"]["bytes"].get<double>() / (1 << 20));
   html += total["asked"] == 0 ? "<p class=\"verdict broken\">Nothing was asked.</p>\n"
           : result["holds"].get<bool>()
-              ? fmt::format("<p class=\"verdict holds\">The contract holds in all {} cases.</p>\n",
-                            total["asked"].get<std::size_t>())
+              ? fmt::format("<p class=\"verdict holds\">The contract {}.</p>\n", what_holds(total))
               : fmt::format("<p class=\"verdict broken\">The contract is broken in {} of {} cases.</p>\n",
                             total["breaches"].get<std::size_t>(), total["asked"].get<std::size_t>());
   if (!result["smallest"].is_null()) html += smallest_html(result["smallest"], views);

@@ -119,6 +119,17 @@ static void print_distances(const Json& rows, const Json& total) {
   }
 }
 
+std::string what_holds(const Json& total) {
+  const auto count = [&](const char* mark) { return total["cases"][mark].get<std::size_t>(); };
+  const std::size_t asked = total["asked"].get<std::size_t>();
+  const std::size_t answered = count("right") + count("wrong");  // wrong as the contract allows
+  if (answered == asked) return fmt::format("holds in all {} cases", asked);
+  std::string words = fmt::format("is not broken in {} cases: {} answered", asked, answered);
+  for (const char* mark : {"abstained", "timed out", "out of memory"})
+    if (count(mark) != 0) words += fmt::format(", {} {}", count(mark), mark);
+  return words;
+}
+
 void print_verdict(const Json& document) {
   const Json &result = document["result"], &total = result["total"];
   for (const auto& [reason, count] : result["not_asked"].items())
@@ -149,8 +160,7 @@ void print_verdict(const Json& document) {
   for (const Json& guess : result["guess"]) std::cout << fmt::format("guess: {}\n", guess.get<std::string>());
   const std::string contract = document["contract"].get<std::string>();
   if (total["asked"] == 0) std::cout << "nothing was asked\n";
-  else if (total["breaches"] == 0)
-    std::cout << fmt::format("the contract `{}` holds in all {} cases\n", contract, total["asked"].get<std::size_t>());
+  else if (total["breaches"] == 0) std::cout << fmt::format("the contract `{}` {}\n", contract, what_holds(total));
   else
     std::cout << fmt::format("the contract `{}` is BROKEN in {} of {} cases\n", contract,
                              total["breaches"].get<std::size_t>(), total["asked"].get<std::size_t>());

@@ -72,13 +72,16 @@ void Common::add_to(Command of) {
   format.add_to(of);
   add_json_option(of, json);
   of.add_option("--coordinates", coordinates,
-                "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
+                "what decimals of SCENE mean: exact (0.1 is 1/10) or double (rounded first, as in other programs); "
+                "those of options and other files are exact")
       .check(one_of({"exact", "double"}))
       .show_default();
   of.add_flag("--flip", flip,
               "turn the scene round: all corners backwards, so that backs become fronts. For files whose faces run "
               "clockwise as seen from their front; `verify` takes it too, for what was made with it");
-  of.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")
+  of.add_option("--threads", threads,
+                "threads; 0: one for each processor. The output does not depend on it, but for the predicates that "
+                "`see` counts")
       .check(range(0, 1024))
       .show_default();
   of.add_option("--seed", seed, "of random choices").check(whole_number()).show_default();

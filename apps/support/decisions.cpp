@@ -29,6 +29,12 @@ Decisions decide(const Decision_arguments& arguments, const Face_graph& graph) {
     planes.push_back(graph.scene().file_coefficients(graph.plane(node)));
     found.faces.push_back(graph.scene().pieces()[graph.piece(node)].face);
   }
+  const std::string& file = graph.scene().file();
+  if (planes.empty())
+    throw std::runtime_error(file + ": no face is left, and a decision tree tells faces' views apart");
+  if (planes.size() > most_view_faces)
+    throw std::runtime_error(
+        fmt::format("{}: views of {} faces; take a body of {} at most", file, planes.size(), most_view_faces));
   const std::vector<View_cell> cells = view_cells(planes);
   found.cells = cells.size();
   for (const View_cell& cell : cells) found.open_cells += cell.open;

@@ -138,13 +138,16 @@ TEST_F(Cutset, bad_files_name_line_and_column) {
   refused({"cutset", cube, "--path", path("none.csv").string()}, bad_input, "no such file");
   refused({"cutset", cube, "--path", file("empty.csv", "# nothing\n")}, bad_input, "X,Y,Z");
   refused({"cutset", cube, "--path", file("two.csv", "0,0,1\n  1,2\n")}, bad_input, "two.csv:2:3");
-  refused({"cutset", cube, "--path", file("nan.csv", "0,0,nan\n")}, bad_input, "nan.csv:1:1");
+  refused({"cutset", cube, "--path", file("nan.csv", "0,0,nan\n")}, bad_input, "nan.csv:1:5");
   refused({"cutset", cube, "--path", file("zero.csv", "0,0,0,0\n")}, bad_input, "not zero");
   refused({"cutset", cube, "--path", file("w.csv", "0,0,1,2\n")}, bad_input, "w.csv:1:1");
   refused({"cutset", cube, "--motion", file("q.csv", "0,0,0,0,1,1,1\n")}, bad_input, "quaternion");
   refused({"cutset", cube, "--decision-tree", "--likelihood", file("l.csv", "1,9\n")}, bad_input, "l.csv:1:1");
   refused({"cutset", cube, "--decision-tree", "--likelihood", file("m.csv", "1,2\n1,0,1\n")}, bad_input,
           "m.csv:2:1");  // opposite faces
+  refused({"cutset", file("none.off", "OFF\n0 0 0\n"), "--decision-tree"}, bad_input, "none.off: no face is left");
+  run({"generate", "city", "--size", "8", "--out", path("city.qoff").string()});
+  refused({"cutset", path("city.qoff").string(), "--decision-tree"}, bad_input, "city.qoff: views of 41 faces; take");
 }
 
 TEST_F(Cutset, a_long_orbit_takes_no_memory_for_its_frames) {

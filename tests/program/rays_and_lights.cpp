@@ -64,6 +64,8 @@ TEST_F(Rays_and_lights, trace_says_what_is_wrong_and_where) {
   says("1,2,3,0,0,1\n\n1,2,3,4,5\n", "wrong.csv:3:1: ");
   says("1,2,3,0,nothing,1\n", "wrong.csv:1:");
   says("", "wrong.csv: ");
+  says("1,2,3,0,0,1\n1,2,3,0,0,nan\n", "wrong.csv:2:11: ");
+  says("1,2,3,0,0,1e5000\n", "exponents within +-1100); \"1e5000\" is none");
   EXPECT_EQ(run({"trace", cube}).code, usage);
   EXPECT_EQ(run({"trace", cube, "--rays", file("r.csv", "0,0,9,0,0,-1\n"), "--method", "embree", "--all"}).code, usage);
 }

@@ -12,6 +12,7 @@
 #include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/soups.h>
 #include <sightline/harness/laws/along_edges.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/vectors.h>
@@ -313,6 +314,26 @@ TEST(Along, is_the_same_with_any_number_of_threads) {
   const std::string alone = changes_with(1);
   EXPECT_FALSE(alone.empty());
   EXPECT_EQ(alone, changes_with(5));
+}
+
+TEST(Along, can_be_given_up_within_a_face) {
+  // A budget of seconds ends what is asked of one large face, not only what is asked of the next one.
+  const Scene scene(generate::triangles_between_squares(60, 3));
+  const Occluders occluders(scene);
+  std::size_t told = 0;
+  Along_options options;
+  options.threads = 1;
+  options.progress = [&](std::size_t done, std::size_t all) {
+    EXPECT_LE(done, all);
+    ++told;
+  };
+  visible_along(occluders, {0, 0, 1}, {1, 1, 1}, options);
+  EXPECT_GT(told, 3 * scene.pieces().size());
+  struct Given_up {};
+  options.progress = [&](std::size_t, std::size_t) {
+    if (--told == 2) throw Given_up();
+  };
+  EXPECT_THROW(visible_along(occluders, {0, 0, 1}, {1, 1, 1}, options), Given_up);
 }
 
 TEST(Along, three_skew_edges_open_at_an_irrational_moment) {

@@ -3,6 +3,7 @@
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -119,10 +120,17 @@ Visible_along visible_along(const Occluders& occluders, const Exact_point& from,
     std::vector<Along_proof> proofs;
   };
   const std::vector<Piece>& pieces = occluders.scene().pieces();
-  const Along_scene scene(occluders, from, to, [&] {
-    if (options.progress) options.progress(0, pieces.size());
-  });
   const std::vector<std::uint32_t> first = first_pieces(pieces);
+  std::atomic<std::size_t> done = 0;  // faces, as was told last
+  std::function<void(std::size_t, std::size_t)> tell;
+  if (options.progress)
+    tell = [&](std::size_t faces, std::size_t all) {
+      done = faces;
+      options.progress(faces, all);
+    };
+  const Along_scene scene(occluders, from, to, [&] {
+    if (options.progress) options.progress(done, first.size());
+  });
   std::vector<Result> results(first.size());
   const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {
     std::vector<Piece_along> searches;
@@ -140,7 +148,7 @@ Visible_along visible_along(const Occluders& occluders, const Exact_point& from,
       result.proofs.insert(result.proofs.end(), search.proofs().begin(), search.proofs().end());
     }
   };
-  for_each_face(pieces, first, options.threads, options.progress, decide);
+  for_each_face(pieces, first, options.threads, tell, decide);
 
   Visible_along all;
   std::vector<Timed_change> changes;

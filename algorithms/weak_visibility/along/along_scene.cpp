@@ -3,6 +3,7 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace sightline {
 
@@ -16,11 +17,11 @@ double squared_size(std::span<const Near_point> corners) {
 }
 
 Along_scene::Along_scene(const Occluders& occluders, const Exact_point& from, const Exact_point& to,
-                         const std::function<void()>& ask)
-    : occluders_(&occluders), eye_(occluders.scene(), occluders.frame(), from, to) {
+                         std::function<void()> ask)
+    : occluders_(&occluders), ask_(std::move(ask)), eye_(occluders.scene(), occluders.frame(), from, to) {
   const auto count = static_cast<std::uint32_t>(occluders.scene().pieces().size());
   for (std::uint32_t piece = 0; piece < count; ++piece) {
-    ask();
+    ask_();
     Eye_polygon& polygon = polygons_.emplace_back();
     polygon.piece = piece;
     polygon.eye_side = eye_.side(occluders.plane(piece).exact);

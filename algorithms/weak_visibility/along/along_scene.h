@@ -33,12 +33,12 @@ struct Eye_polygon {
 /// the path are none. It refers to the occluders.
 class Along_scene {
  public:
-  /// ask(): before each piece.
-  Along_scene(const Occluders& occluders, const Exact_point& from, const Exact_point& to,
-              const std::function<void()>& ask);
-  Along_scene(Occluders&&, const Exact_point&, const Exact_point&, const std::function<void()>&) = delete;
+  /// ask(): before each piece here, and on the way of searches, from any thread; what it throws ends them.
+  Along_scene(const Occluders& occluders, const Exact_point& from, const Exact_point& to, std::function<void()> ask);
+  Along_scene(Occluders&&, const Exact_point&, const Exact_point&, std::function<void()>) = delete;
 
   const Occluders& occluders() const { return *occluders_; }
+  void ask() const { ask_(); }
   const Moving_eye& eye() const { return eye_; }
   const std::vector<Eye_line>& lines() const { return lines_; }
   /// The number of a line, if it is one of the scene's.
@@ -56,6 +56,7 @@ class Along_scene {
   bool is_on(const Eye_polygon& polygon, const Homogeneous& eye) const;
 
   const Occluders* occluders_;
+  std::function<void()> ask_;
   Moving_eye eye_;
   std::vector<Eye_line> lines_;
   std::vector<std::vector<std::array<std::uint32_t, 2>>> edges_;  // by line

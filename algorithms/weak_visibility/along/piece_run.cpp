@@ -225,6 +225,8 @@ std::vector<Triple> Piece_run::rays(const Cone& cone) {
 }
 
 Piece_run::Guess Piece_run::guess(std::uint32_t blocker, const Cone& cone, const std::vector<Triple>& rays) {
+  // Of large faces this alone takes milliseconds.
+  if (view_->blocker(blocker).edges.size() * rays.size() >= 10'000) view_->scene().ask();
   bool covers = true;
   double deepest = 0;
   std::size_t best = 0;
@@ -266,6 +268,7 @@ bool Piece_run::is_beside(std::uint32_t blocker, const Cone& cone) {
 
 bool Piece_run::find(const Cone& cone, const Blockers& left, Cone& found) {
   if (unlucky_) return false;
+  view_->scene().ask();
   ++counters_.parts;
   // 1. What is in front of it, as doubles have it.
   const std::vector<Triple> near_rays = rays(cone);

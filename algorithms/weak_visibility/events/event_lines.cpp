@@ -1,5 +1,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 
+#include <sightline/kernel/time_limit.h>
+
 #include <span>
 #include <utility>
 
@@ -37,7 +39,7 @@ const Homogeneous& in_front(const Near_plane& h, const Near_polygon& polygon, in
 
 Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
                          const Near_polygon& target, const Near_plane& target_plane, int beside,
-                         std::span<const std::uint32_t> pieces)
+                         std::span<const std::uint32_t> pieces, const std::function<bool()>& out_of_time)
     : source_polygon_(source),
       target_polygon_(target),
       near_source_plane_(source_plane),
@@ -64,12 +66,14 @@ Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source,
     if (!line.real) continue;
     for (Filtered& end : line.hull) end.near = near(occluders.frame(), end.exact);
   }
+  bool is_over = false;
   for (Event_line& line : lines_) {
     if (!line.real) continue;
+    is_over = is_over || has_run_out(out_of_time);
     if (line.in_source && sign_of_dot(target_plane_, line.hull[0]) == 0 &&
         sign_of_dot(target_plane_, line.hull[1]) == 0)
       line.real = false;
-    else if (!is_touched(line)) {
+    else if (!is_over && !is_touched(line)) {
       line.real = false;
       ++untouched_;
     }

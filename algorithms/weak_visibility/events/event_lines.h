@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -40,15 +41,17 @@ class Event_lines {
     std::vector<Literal> literals;
   };
 
-  /// `beside`: the side of the target's plane, 1 or -1, on which the source is. Pieces come first that are large.
+  /// `beside`: the side of the target's plane, 1 or -1, on which the source is. Pieces come first that are large. Once
+  /// out of time, lines are real that nothing from the source to the target touches.
   Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
-              const Near_polygon& target, const Near_plane& target_plane, int beside)
-      : Event_lines(occluders, source, source_plane, target, target_plane, beside,
-                    occluders.near_shaft(source, target)) {}
+              const Near_polygon& target, const Near_plane& target_plane, int beside,
+              const std::function<bool()>& out_of_time = {})
+      : Event_lines(occluders, source, source_plane, target, target_plane, beside, occluders.near_shaft(source, target),
+                    out_of_time) {}
   /// Of some pieces only.
   Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
               const Near_polygon& target, const Near_plane& target_plane, int beside,
-              std::span<const std::uint32_t> pieces);
+              std::span<const std::uint32_t> pieces, const std::function<bool()>& out_of_time = {});
 
   std::span<const Filtered> source() const { return source_; }
   std::span<const Filtered> target() const { return target_; }

@@ -251,7 +251,7 @@ Event_shaft::Part Event_shaft::part(const Cell& cell, const Numbers& blockers) c
 Events_answer search_shaft(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
                            const Near_polygon& target, const Near_plane& target_plane, int beside,
                            const Events_options& options, Event_counters& counters) {
-  const Event_lines lines(occluders, source, source_plane, target, target_plane, beside);
+  const Event_lines lines(occluders, source, source_plane, target, target_plane, beside, options.out_of_time);
   Event_search whole(occluders, lines, options, counters);
   const Event_shaft::Parts parts = whole.in_one_shadow() ? Event_shaft::Parts{{}, true, {}}
                                                          : Event_shaft(occluders, lines, options, counters).divided();
@@ -269,7 +269,8 @@ Events_answer search_shaft(const Occluders& occluders, const Near_polygon& sourc
       break;
     }
     ++counters.shafts_left;
-    const Event_lines own(occluders, part.source, source_plane, part.target, target_plane, beside, part.pieces);
+    const Event_lines own(occluders, part.source, source_plane, part.target, target_plane, beside, part.pieces,
+                          options.out_of_time);
     Event_search search(occluders, own, left, counters);
     const Events_answer found = search.run();
     if (found.status != Weak_status::hidden) answer = found;

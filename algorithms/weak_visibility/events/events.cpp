@@ -20,7 +20,7 @@ Events_answer with_surfaces(const Occluders& occluders, const Near_polygon& sour
                             const Near_polygon& target, const Near_plane& target_plane, int beside,
                             const Events_options& options, Event_counters& counters,
                             const std::function<void(const Event_search::Surface&)>& keep) {
-  const Event_lines lines(occluders, source, source_plane, target, target_plane, beside);
+  const Event_lines lines(occluders, source, source_plane, target, target_plane, beside, options.out_of_time);
   Event_search search(occluders, lines, options, counters);
   const Events_answer found = search.run();
   if (keep) std::for_each(search.surfaces().begin(), search.surfaces().end(), keep);
