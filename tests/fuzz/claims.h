@@ -371,12 +371,21 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
       require(std::count_if(tiles.begin(), tiles.end(), [&](const Tile& other) { return other.location(d) > 0; }) == 1,
               "a direction is in one cone");
     }
+  const auto is_in_a_cone = [&](const Place& d) {
+    return std::any_of(tiles.begin(), tiles.end(), [&](const Tile& tile) { return tile.location(d) >= 0; });
+  };
+  if (field)
+    for (const Place& d : mixtures(field->rays)) require(is_in_a_cone(d), "a direction of the field is in a cone");
+  else
+    for (const Tile& tile : tiles)
+      for (const Place& d : mixtures(tile.rays))
+        require(is_in_a_cone({Integer(-d[0]), Integer(-d[1]), Integer(-d[2]), 0}),
+                "a direction is in a cone, and so is the opposite one");
   for (const Flat& fragment : fragments)
     for (const Place& p : mixtures(fragment.corners)) {
       const Place d = direction_to(p, eye);
       if (fragment.side(eye) == 0 || (field && field->location(d) <= 0)) continue;
-      require(std::any_of(tiles.begin(), tiles.end(), [&](const Tile& tile) { return tile.location(d) >= 0; }),
-              "a direction of the field is in a cone");
+      require(is_in_a_cone(d), "a direction of the field is in a cone");
     }
 }
 

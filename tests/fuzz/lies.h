@@ -8,6 +8,8 @@
 #include <sightline/harness/generate/families.h>
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -308,6 +310,46 @@ inline bool joins_with_arcs(Graph_certificate& claim, const Posed_scene& truth, 
   return true;
 }
 
+/// Two components are one, with all arcs that there are from the members of one to those of the other: none goes back.
+/// Either of them comes first.
+inline bool joins_one_way(Graph_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  using Arc = Graph_certificate::Arc;
+  if (claim.sizes.size() < 2) return false;
+  const std::vector<Flat> fragments = flats(claim);
+  const auto corner_on = [&](std::size_t of, int side, std::size_t plane) -> std::optional<std::size_t> {
+    for (std::size_t k = 0; k < fragments[of].corners.size(); ++k)
+      if (fragments[plane].side(fragments[of].corners[k]) == side) return k;
+    return std::nullopt;
+  };
+  const std::size_t joints = std::min<std::size_t>(256, claim.sizes.size() - 1), start = bytes.below(joints);
+  for (std::size_t tried = 0; tried < joints; ++tried) {
+    const std::size_t c = (start + tried) % joints;
+    const auto at = claim.sizes.begin() + static_cast<std::ptrdiff_t>(c);
+    const std::size_t first = std::accumulate(claim.sizes.begin(), at, std::size_t{0}), middle = first + *at,
+                      end = middle + *(at + 1);
+    if (end > fragments.size()) return false;  // another lie has left some out
+    std::vector<Arc> between;
+    for (std::size_t i = first; i < middle; ++i)
+      for (std::size_t j = middle; j < end; ++j)
+        if (const auto front = corner_on(i, 1, j), behind = corner_on(j, -1, i); front && behind)
+          between.push_back({i, j, *front, *behind});
+    if (between.empty()) continue;
+    *at += *(at + 1);
+    claim.sizes.erase(at + 1);
+    claim.arcs.insert(claim.arcs.end(), between.begin(), between.end());
+    if (bytes.below(2) == 0) return true;
+    const auto begin = claim.fragments.begin();
+    std::rotate(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(middle),
+                begin + static_cast<std::ptrdiff_t>(end));
+    for (Arc& arc : claim.arcs)
+      for (std::size_t* place : {&arc.from, &arc.to})
+        if (first <= *place && *place < end)
+          *place = *place < middle ? *place + (end - middle) : *place - (middle - first);
+    return true;
+  }
+  return false;
+}
+
 /// What may not be cut, or not there.
 inline bool cuts_a_fragment(Graph_certificate& claim, const Posed_scene&, Bytes& bytes) {
   if (claim.fragments.empty()) return false;
@@ -326,6 +368,7 @@ inline const std::vector<Lie<Graph_certificate>>& lies_in(const Graph_certificat
       {{"a component split", splits_a_component},
        {"components joined", joins_components},
        {"components joined by arcs", joins_with_arcs},
+       {"components joined one way", joins_one_way},
        {"a fragment cut", cuts_a_fragment},
        {"neighbours swapped", swap_neighbours<Claim>},
        {"arcs exchanged", [](Claim& claim, const Posed_scene&,
