@@ -165,10 +165,16 @@ inline void require_read_and_guarded(const Visibility_table& table, generate::Ra
             "a damaged table is refused");
 }
 
-/// A table of many cells and faces, of which few were asked about and fewer are seen.
+/// A table of many cells and faces, of which few were asked about, or none, and fewer are seen.
 inline void try_long_table(generate::Random& random) {
-  const std::size_t cells = random.below(random.chance(1, 2) ? 4 : 20001), faces = random.below(20001);
-  Visibility_table table{"?", any_long_row(cells, random), any_long_row(faces, random), {}};
+  const bool none_asked = random.chance(1, 4);
+  const std::size_t most = none_asked ? 200001 : 20001, cells = random.below(random.chance(1, 2) ? 4 : most),
+                    faces = random.below(most);
+  Visibility_table table{"?", std::vector<bool>(cells), std::vector<bool>(faces), {}};
+  if (!none_asked) {
+    table.cells = any_long_row(cells, random);
+    table.faces = any_long_row(faces, random);
+  }
   if (random.chance(1, 2)) table.lower_cells = any_long_row(cells, random);
   std::vector<std::uint32_t> asked;
   for (std::uint32_t c = 0; c < cells; ++c)
@@ -849,7 +855,7 @@ inline void rare_files(std::string_view bytes) {
   switch (kind % 8) {
     case 0: return try_fingerprints(random);
     case 1:
-      if (random.chance(1, 3)) return random.chance(1, 2) ? try_long_row(random) : try_long_table(random);
+      if (random.chance(1, 2)) return random.chance(1, 2) ? try_long_row(random) : try_long_table(random);
       return random.chance(1, 4) ? try_missing_shards(random) : try_dealt_table(random);
     case 2: return try_rows_of_leaves(random);
     case 3: return try_many_nodes(random, false);
