@@ -96,6 +96,28 @@ Faces seen_at(const Visible_along& along, const Quadratic_root& t) {
   return faces;
 }
 
+/// What is wrong with the ranges in which a face is seen, and with the moments beside them: they are in order, and as
+/// few as they can be. Where one range ends and the next begins the face is not seen.
+std::string flaw_of_ranges(const Visible_along::Face& face) {
+  const auto is_seen_alone = [&](const Quadratic_root& t) {
+    return std::any_of(face.moments.begin(), face.moments.end(), [&](const Rational& m) { return moment(m) == t; });
+  };
+  for (std::size_t k = 0; k < face.seen.size(); ++k) {
+    const auto& [low, high] = face.seen[k];
+    if (!(low < high) || low < Quadratic_root(0) || Quadratic_root(1) < high) return "a range has no length";
+    if (k > 0 && low < face.seen[k - 1].high) return "two ranges overlap";
+    if (k > 0 && low == face.seen[k - 1].high && is_seen_alone(low)) return "two ranges are one";
+  }
+  for (std::size_t k = 0; k < face.moments.size(); ++k) {
+    if (k > 0 && face.moments[k] <= face.moments[k - 1]) return "moments are in no order";
+    const Quadratic_root t = moment(face.moments[k]);
+    if (std::any_of(face.seen.begin(), face.seen.end(),
+                    [&](const Parameter_range& range) { return range.low < t && t < range.high; }))
+      return "a moment is in a range";
+  }
+  return "";
+}
+
 /// The same by events alone: what they change of what is seen at first.
 Faces after_events(const Visible_along& along, const Quadratic_root& t) {
   Faces seen = along.at_start;
@@ -302,6 +324,10 @@ Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
   const std::string path = "from (" + to_string(from[0]) + " " + to_string(from[1]) + " " + to_string(from[2]) +
                            ") to (" + to_string(to[0]) + " " + to_string(to[1]) + " " + to_string(to[2]) + ")" +
                            (options.two_sided ? " two-sided" : "");
+
+  for (const Visible_along::Face& face : found.faces)
+    if (const std::string flaw = flaw_of_ranges(face); !flaw.empty())
+      return Outcome::failed(path + " of " + face_name(face.face) + ' ' + flaw);
 
   // 1. Held to `see`: at the ends, at events, between them, anywhere.
   std::vector<Rational> moments{0, 1, ratio(random.between(1, 99), 100), ratio(random.between(1, 999), 1000)};

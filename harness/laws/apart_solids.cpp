@@ -1,14 +1,18 @@
 #include <sightline/harness/laws/apart_solids.h>
 
+#include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/solids/operands.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/solids.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/harness/laws/solids.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -105,12 +109,57 @@ std::string flaw_through(Random& random) {
   return parts < 2 * (4 + star.size()) ? "" : "faces with holes are cut into all their triangles";
 }
 
+/// A tetrahedron between points of a lattice, its faces outside.
+Polygon_soup any_tetrahedron(Random& random) {
+  for (;;) {
+    Points p;
+    for (int k = 0; k < 4; ++k) p.push_back(generate::lattice(random, 6));
+    const Rational way = dot(cross(minus(p[1], p[0]), minus(p[2], p[0])), minus(p[3], p[0]));
+    if (way == 0) continue;
+    if (way < 0) std::swap(p[1], p[2]);
+    return generate::soup_of({{p[0], p[2], p[1]}, {p[0], p[1], p[3]}, {p[1], p[2], p[3]}, {p[2], p[0], p[3]}});
+  }
+}
+
+/// Small solids, of which one has a part as far away as doubles hold whole numbers, or a little farther, and off the
+/// others' grid by a fraction with a large prime. Moved to the middle of that grid, all coordinates are of 52 to 57
+/// bits, those of the small solids whole numbers.
+std::string flaw_far(Random& random) {
+  std::vector<Polygon_soup> solids(2);
+  for (Polygon_soup& solid : solids)
+    for (std::uint64_t count = 1 + random.below(2); count > 0; --count)
+      generate::append(solid, any_tetrahedron(random));
+  const Set_operation operation = set_operations[random.below(4)];
+  const Polygon_soup near = result_of(solids, operation).soup;
+  static constexpr std::array<long, 4> primes{1048583, 2097143, 16777213, 1073741789};
+  Exact_point away;
+  for (Rational& x : away) {
+    x = generate::power_of_two(static_cast<int>(random.between(52, 57))) + generate::integer(random, -9, 9);
+    if (random.chance(1, 2)) x = -x;
+  }
+  away[random.below(3)] += generate::ratio(1, primes[random.below(primes.size())]);
+  const Polygon_soup far = generate::translated(any_tetrahedron(random), away);
+  generate::append(solids[0], far);
+  const Set_result result = result_of(solids, operation);
+  Rational expected = volume(near);
+  std::multiset<Whole_face> all = faces_in(near);
+  if (operation != Set_operation::intersect) {
+    expected += volume(far);
+    all.merge(faces_in(far));
+  }
+  if (volume(result.soup) != expected) return "a part far away changes the volume of what is left of the others";
+  return faces_in(result.soup) == all ? "" : "a part far away changes faces of what is left of the others";
+}
+
 }  // namespace
 
 Check apart_solids_check() {
-  return {"apart", "stars apart keep their faces, and one through a block leaves walls and two faces with a hole",
+  return {"apart",
+          "stars apart keep their faces, and one through a block leaves walls and two faces with a hole; what is far "
+          "away changes nothing",
           [](const Posed_scene&, const Answer&, Random& random) {
-            const std::string flaw = random.chance(1, 2) ? flaw_apart(random) : flaw_through(random);
+            static constexpr std::array<std::string (*)(Random&), 3> laws{flaw_apart, flaw_through, flaw_far};
+            const std::string flaw = laws[random.below(laws.size())](random);
             return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
           },
           4};

@@ -69,9 +69,10 @@ std::optional<Image> permuted(const Posed_scene& scene, Random& random) {
   return image;
 }
 
+constexpr std::size_t few_faces = 40;  // of a scene whose numbers may be long
+
 /// 2^-1200 to 2^1200 for one small scene in four, as numbers of so many bits take long; else nearer to 1.
 static std::int64_t most_power(const Posed_scene& scene, Random& random, std::int64_t else_most) {
-  constexpr std::size_t few_faces = 40;
   return scene.soup.face_count() <= few_faces && random.chance(1, 4) ? 1200 : else_most;
 }
 
@@ -193,10 +194,19 @@ std::optional<Image> with_a_bystander(const Posed_scene& scene, Random& random) 
   Points face = any_face(random);
   const std::int64_t power = most_power(scene, random, 0);
   const Rational size = power_of_two(static_cast<int>(random.between(-power, power)));
+  Exact_point away{0, 0, 0};
+  if (power == 0 && scene.soup.face_count() <= few_faces && random.chance(1, 6)) {
+    for (Rational& x : away) {
+      x = power_of_two(static_cast<int>(random.between(52, 57))) + integer(random, -9, 9);
+      if (random.chance(1, 2)) x = -x;
+    }
+    away[axis] = abs(away[axis]);
+    away[random.below(3)] += ratio(1, 2097143);  // a prime
+  }
   std::vector<Point_id> ids;
   for (Exact_point& p : face) {
     p[axis] += 5;  // its coordinates are at least -4
-    for (Rational& x : p) x *= size;
+    for (std::size_t k = 0; k < 3; ++k) p[k] = size * p[k] + away[k];
     p[axis] += most;
     ids.push_back(image.scene.soup.add_point(p[0], p[1], p[2]));
   }
@@ -221,8 +231,11 @@ const std::vector<Law>& laws() {
       {"mirror", "mirrored, faces turned back", planar_only, mirrored},
       {"turn", "all faces turned round: fronts are backs", everywhere, turned},
       {"cut", "a convex face cut in two", everywhere, cut},
-      {"bystander", "a face more, out of sight, of some small scenes 2^-1200 to 2^1200 times as large", everywhere,
-       with_a_bystander}};
+      {"bystander",
+       "a face more, out of sight, of some small scenes 2^-1200 to 2^1200 times as large, or so far away, by a "
+       "fraction, "
+       "that coordinates have 52 to 57 bits",
+       everywhere, with_a_bystander}};
   return all;
 }
 

@@ -75,7 +75,8 @@ std::optional<Image> mirrored(const Posed_scene& scene, Random& random);
 std::optional<Image> turned(const Posed_scene& scene, Random&);
 /// A convex face in two, along the segment between two points of different edges, or two corners.
 std::optional<Image> cut(const Posed_scene& scene, Random& random);
-/// One more face, beyond a plane that has the scene, the eye and the source on its other side.
+/// One more face, beyond a plane that has the scene, the eye and the source on its other side; of some small scenes so
+/// far away, and off their grid, that whole numbers of theirs are just those that doubles hold, or some bits longer.
 std::optional<Image> with_a_bystander(const Posed_scene& scene, Random& random);
 
 const std::vector<Law>& laws();

@@ -280,6 +280,10 @@ inline void try_claims(const Known_scene& scene, const Graph_certificate& claim)
       reaches[i][j] = i == j || (has_corner(i, 1, j) && has_corner(j, -1, i));
       require(!reaches[i][j] || component[i] <= component[j], "nothing obscures what has higher priority");
     }
+  for (const auto& [from, to, corner_from, corner_to] : claim.arcs)
+    require(component[from] == component[to] && fragments[to].side(fragments[from].corners[corner_from]) > 0 &&
+                fragments[from].side(fragments[to].corners[corner_to]) < 0,
+            "an arc is one, and in its component");
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) reaches[i][j] = reaches[i][j] || (reaches[i][k] && reaches[k][j]);
@@ -371,12 +375,21 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
       require(std::count_if(tiles.begin(), tiles.end(), [&](const Tile& other) { return other.location(d) > 0; }) == 1,
               "a direction is in one cone");
     }
+  const auto is_in_a_cone = [&](const Place& d) {
+    return std::any_of(tiles.begin(), tiles.end(), [&](const Tile& tile) { return tile.location(d) >= 0; });
+  };
+  if (field)
+    for (const Place& d : mixtures(field->rays)) require(is_in_a_cone(d), "a direction of the field is in a cone");
+  else
+    for (const Tile& tile : tiles)
+      for (const Place& d : mixtures(tile.rays))
+        require(is_in_a_cone({Integer(-d[0]), Integer(-d[1]), Integer(-d[2]), 0}),
+                "a direction is in a cone, and so is the opposite one");
   for (const Flat& fragment : fragments)
     for (const Place& p : mixtures(fragment.corners)) {
       const Place d = direction_to(p, eye);
       if (fragment.side(eye) == 0 || (field && field->location(d) <= 0)) continue;
-      require(std::any_of(tiles.begin(), tiles.end(), [&](const Tile& tile) { return tile.location(d) >= 0; }),
-              "a direction of the field is in a cone");
+      require(is_in_a_cone(d), "a direction of the field is in a cone");
     }
 }
 
@@ -409,6 +422,16 @@ inline std::set<Face_id> said_to_be_seen(const Along_certificate& claim, const A
 inline void try_claims(const Known_scene& scene, const Along_certificate& claim) {
   const std::vector<Flat> fragments = flats(claim);
   try_covering(scene, claim, fragments);
+  const auto have_a_place_in_common = [](const Along_certificate::Range& a, const Along_certificate::Range& b) {
+    const auto first = [](const auto& range) { return 2 * range.low + (range.low < range.high ? 1 : 0); };
+    const auto last = [](const auto& range) { return 2 * range.high - (range.low < range.high ? 1 : 0); };
+    return first(a) <= last(b) && first(b) <= last(a);
+  };
+  for (const Along_certificate::Face& face : claim.faces)
+    for (auto range = face.seen.begin(); range != face.seen.end(); ++range)
+      require(std::none_of(face.seen.begin(), range,
+                           [&](const auto& other) { return have_a_place_in_common(*range, other); }),
+              "a face is said to be seen once at a time");
   std::size_t tried = 0;
   for (const auto& [t, then] : times_of(claim)) {
     if (++tried > 16) break;

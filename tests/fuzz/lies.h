@@ -8,6 +8,8 @@
 #include <sightline/harness/generate/families.h>
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -308,6 +310,62 @@ inline bool joins_with_arcs(Graph_certificate& claim, const Posed_scene& truth, 
   return true;
 }
 
+enum class Joint { one_way, touching, none };
+
+/// Two components are one, with all arcs that there are from the members of one to those of the other, and none back;
+/// or with arcs both ways by corners that may be in the other's plane. Either of them comes first. Or they are two,
+/// with one such arc between them.
+template <Joint joint>
+bool has_arcs_between(Graph_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  using Arc = Graph_certificate::Arc;
+  if (claim.sizes.size() < 2) return false;
+  const std::vector<Flat> fragments = flats(claim);
+  const auto corner_on = [&](std::size_t of, int side, std::size_t plane) -> std::optional<std::size_t> {
+    for (const int least : {side, joint == Joint::touching ? 0 : side})
+      for (std::size_t k = 0; k < fragments[of].corners.size(); ++k)
+        if (fragments[plane].side(fragments[of].corners[k]) == least) return k;
+    return std::nullopt;
+  };
+  const std::size_t joints = std::min<std::size_t>(256, claim.sizes.size() - 1), start = bytes.below(joints);
+  for (std::size_t tried = 0; tried < joints; ++tried) {
+    // 1. Arcs between two that follow each other.
+    const std::size_t c = (start + tried) % joints;
+    const auto at = claim.sizes.begin() + static_cast<std::ptrdiff_t>(c);
+    const std::size_t first = std::accumulate(claim.sizes.begin(), at, std::size_t{0}), middle = first + *at,
+                      end = middle + *(at + 1);
+    if (end > fragments.size()) return false;  // another lie has left some out
+    std::vector<Arc> between;
+    const auto add = [&](std::size_t i, std::size_t j) {
+      if (const auto front = corner_on(i, 1, j), behind = corner_on(j, -1, i); front && behind)
+        between.push_back({i, j, *front, *behind});
+    };
+    for (std::size_t i = first; i < middle; ++i)
+      for (std::size_t j = middle; j < end; ++j) {
+        add(i, j);
+        if (joint == Joint::touching) add(j, i);
+      }
+    if (between.empty()) continue;
+    if (joint == Joint::none) {
+      claim.arcs.push_back(between[any_of_first(between, bytes)]);
+      return true;
+    }
+    // 2. As one, perhaps the other one first.
+    *at += *(at + 1);
+    claim.sizes.erase(at + 1);
+    claim.arcs.insert(claim.arcs.end(), between.begin(), between.end());
+    if (bytes.below(2) == 0) return true;
+    const auto begin = claim.fragments.begin();
+    std::rotate(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(middle),
+                begin + static_cast<std::ptrdiff_t>(end));
+    for (Arc& arc : claim.arcs)
+      for (std::size_t* place : {&arc.from, &arc.to})
+        if (first <= *place && *place < end)
+          *place = *place < middle ? *place + (end - middle) : *place - (middle - first);
+    return true;
+  }
+  return false;
+}
+
 /// What may not be cut, or not there.
 inline bool cuts_a_fragment(Graph_certificate& claim, const Posed_scene&, Bytes& bytes) {
   if (claim.fragments.empty()) return false;
@@ -326,6 +384,9 @@ inline const std::vector<Lie<Graph_certificate>>& lies_in(const Graph_certificat
       {{"a component split", splits_a_component},
        {"components joined", joins_components},
        {"components joined by arcs", joins_with_arcs},
+       {"components joined one way", has_arcs_between<Joint::one_way>},
+       {"components joined where they touch", has_arcs_between<Joint::touching>},
+       {"an arc between components", has_arcs_between<Joint::none>},
        {"a fragment cut", cuts_a_fragment},
        {"neighbours swapped", swap_neighbours<Claim>},
        {"arcs exchanged", [](Claim& claim, const Posed_scene&,

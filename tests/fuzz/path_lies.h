@@ -81,6 +81,15 @@ inline const std::vector<Lie<Along_certificate>>& lies_in(const Along_certificat
           proof.cone[any_of_first(proof.cone, bytes)].sign *= -1;
           return true;
         }},
+       {"a range twice",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          if (claim.faces.empty()) return false;
+          Along_certificate::Face& face = claim.faces[any_of_first(claim.faces, bytes)];
+          if (face.seen.empty()) return false;
+          const Along_certificate::Range range = face.seen[any_of_first(face.seen, bytes)];
+          face.seen.push_back(range);
+          return true;
+        }},
        {"a proof left out",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) { return remove_any(claim.proofs, bytes); }},
        {"seen for a while, or not", of_a_while}});

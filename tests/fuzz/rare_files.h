@@ -3,6 +3,7 @@
 // twice, brushes far beyond the numbers of their planes, and tables, scenes and levels told in parts.
 
 #include "decimal.h"
+#include "long_rows.h"
 #include "readers.h"
 #include "support.h"
 #include "written.h"
@@ -162,6 +163,34 @@ inline void require_read_and_guarded(const Visibility_table& table, generate::Ra
               sightline::read_table({"damaged", damaged});
             }),
             "a damaged table is refused");
+}
+
+/// A table of many cells and faces, of which few were asked about, or none, and fewer are seen.
+inline void try_long_table(generate::Random& random) {
+  const bool none_asked = random.chance(1, 4);
+  const std::size_t most = none_asked ? 200001 : 20001, cells = random.below(random.chance(1, 2) ? 4 : most),
+                    faces = random.below(most);
+  Visibility_table table{"?", std::vector<bool>(cells), std::vector<bool>(faces), {}};
+  if (!none_asked) {
+    table.cells = any_long_row(cells, random);
+    table.faces = any_long_row(faces, random);
+  }
+  if (random.chance(1, 2)) table.lower_cells = any_long_row(cells, random);
+  std::vector<std::uint32_t> asked;
+  for (std::uint32_t c = 0; c < cells; ++c)
+    if (table.cells[c]) asked.push_back(c);
+  table.rows.resize(asked.size());
+  for (Visibility_table::Row& row : table.rows)
+    for (std::uint32_t f = 0; f < faces; ++f)
+      if (table.faces[f] && random.chance(1, 3)) (random.chance(2, 3) ? row.visible : row.undecided).push_back(f);
+  for (std::size_t r = 0; r < asked.size(); ++r)
+    for (std::size_t s = r + 1; s < asked.size(); ++s)
+      if (table.has_cells() && table.lower_cells[asked[r]] && random.chance(1, 3)) {
+        const auto list = random.chance(2, 3) ? &Visibility_table::Row::cells : &Visibility_table::Row::cells_undecided;
+        (table.rows[r].*list).push_back(asked[s]);
+        (table.rows[s].*list).push_back(asked[r]);
+      }
+  require_read_and_guarded(table, random);
 }
 
 /// A table whose faces and pairs of cells are dealt out anyhow: put together in any order, and in steps, it is the
@@ -825,7 +854,9 @@ inline void rare_files(std::string_view bytes) {
   if (kind == 4) return try_ply_forms(random, true);
   switch (kind % 8) {
     case 0: return try_fingerprints(random);
-    case 1: return random.chance(1, 4) ? try_missing_shards(random) : try_dealt_table(random);
+    case 1:
+      if (random.chance(1, 2)) return random.chance(1, 2) ? try_long_row(random) : try_long_table(random);
+      return random.chance(1, 4) ? try_missing_shards(random) : try_dealt_table(random);
     case 2: return try_rows_of_leaves(random);
     case 3: return try_many_nodes(random, false);
     case 4: return try_far_brush(random);

@@ -4,6 +4,8 @@
 #include "../kernel/grid.h"
 #include "support.h"
 
+#include <cmath>
+
 namespace fuzz {
 
 using kernel_test::Grid;
@@ -17,6 +19,9 @@ inline Grid grid_in(Bytes& from, std::vector<std::uint32_t>& points) {
   if (bits > 53 && from.below(2) == 1) divisor = 3 * kernel_test::power_of_two(bits - 31);
   if (bits > 53 && from.below(4) == 1)  // so small that products of doubles underflow
     divisor = 3 * kernel_test::power_of_two(bits + 900 + static_cast<int>(from.below(120)));
+  // One with which whole coordinates have as many bits as doubles hold, one less or a few more.
+  if (bits > 60 && from.below(4) == 1)
+    divisor = kernel_test::power_of_two(bits - 52 - static_cast<int>(from.below(4))) - 1;
   const int whole_bits = bits - static_cast<int>(bit_length(divisor));
   Grid grid(bits, divisor);
   for (std::size_t k = 3 + from.below(6); k > 0; --k) {
@@ -38,6 +43,37 @@ inline Grid grid_in(Bytes& from, std::vector<std::uint32_t>& points) {
   }
   grid.incidences = Point_planes(grid.points.size(), incidences);
   return grid;
+}
+
+/// Coordinates and planes in doubles are those of the tables' integers, within what the tables say.
+inline void check_doubles(const Grid& grid) {
+  const Rational tiny = kernel_test::shifted(1, 1074);  // what is below doubles
+  for (std::uint32_t p = 0; p < grid.points.size(); ++p)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Rational near = exact(grid.points.approximate(p, static_cast<int>(k))),
+                     value = grid.approximated(grid.at(p)[k]), error = near - value;
+      require(abs(error) <= kernel_test::shifted(abs(value), 53) + tiny, "a coordinate in doubles is the nearest one");
+      require(abs(near) <= exact(grid.points.range()), "coordinates are within their range");
+      require(!grid.points.is_exact(p, static_cast<int>(k)) || (error == 0 && near.get_den() == 1),
+              "what is called exact is a whole number, without error");
+    }
+  for (std::uint32_t id = 0; id < grid.planes.size(); ++id) {
+    const Approximate_plane& plane = grid.planes.approximate(id);
+    const std::array<Rational, 4> near{exact(plane.a), exact(plane.b), exact(plane.c), exact(plane.d)};
+    std::array<Rational, 4> value;
+    for (int k = 0; k < 4; ++k) value[static_cast<std::size_t>(k)] = grid.planes.integer(id, k);
+    value[3] = grid.approximated(value[3]);
+    // The factor of all of them: a power of two, by one that is not 0.
+    const std::size_t some = value[0] != 0 ? 0 : value[1] != 0 ? 1 : 2;
+    const long power = -std::ilogb(Rational(near[some] / value[some]).get_d() * 1.25);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Rational scaled = kernel_test::shifted(value[k], power), error = near[k] - scaled;
+      require(abs(error) <= kernel_test::shifted(abs(scaled), 52) + tiny, "a plane in doubles is near its own");
+      require(!plane.exact || abs(near[k]) >= kernel_test::power_of_two(53) ||
+                  (near[k] == value[k] && near[k].get_den() == 1),
+              "a plane that is called exact is one of whole numbers, without error where these are below 2^53");
+    }
+  }
 }
 
 inline void check_side(const Grid& grid, const Predicates& predicates, const Vertex& v, const Position& x, Plane plane,
@@ -73,6 +109,7 @@ inline void side(std::string_view bytes) {
   Bytes from(bytes);
   std::vector<std::uint32_t> points;
   Grid grid = grid_in(from, points);
+  check_doubles(grid);
   const Predicates predicates = grid.predicates();
   std::vector<std::pair<Plane, kernel_test::Coefficients>> planes;
   for (std::size_t k = 0; k < grid.handles.size(); ++k) planes.emplace_back(grid.handles[k], grid.made[k]);

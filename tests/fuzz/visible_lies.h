@@ -112,6 +112,70 @@ inline bool shows_all_of_one(Visible_certificate& claim, const Posed_scene&, Byt
   return true;
 }
 
+/// All directions on one side of a plane through the eye are left out: what is on the other side ends at that plane,
+/// all along it. Often the plane is one through two rays.
+inline bool leaves_out_one_side(Visible_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  const std::vector<Visible_certificate::Part> parts = std::exchange(claim.parts, {});
+  const std::vector<Points> empty = std::exchange(claim.empty, {});
+  if (parts.empty() && empty.empty()) return false;
+  Points all;
+  for (const Visible_certificate::Part& part : parts)
+    for (const Exact_point& ray : rays_of(claim, part)) all.push_back(ray);
+  for (const Points& cone : empty) all.insert(all.end(), cone.begin(), cone.end());
+  Exact_point outwards{0, 0, 0};
+  if (bytes.below(2) == 0) {
+    const Exact_point& ray = all[any_of_first(all, bytes)];
+    outwards = cross(ray, all[any_of_first(all, bytes)]);
+  }
+  if (is_zero(outwards)) {
+    for (Rational& x : outwards) x = static_cast<long>(bytes.below(7)) - 3;
+    outwards[2] += 4;
+  }
+  for (const Visible_certificate::Part& part : parts)
+    if (const Points rays = clipped_cone(rays_of(claim, part), outwards); !rays.empty())
+      add_part(claim, part.fragment, rays);
+  for (const Points& cone : empty)
+    if (Points rays = clipped_cone(cone, outwards); !rays.empty()) claim.empty.push_back(std::move(rays));
+  return true;
+}
+
+/// All directions twice: once more with each part and each empty cone cut along a plane, which goes through the first
+/// one's middle, so that this is in no other cone, but on the border of two.
+inline bool shows_all_twice(Visible_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  const std::vector<Visible_certificate::Part> parts = claim.parts;
+  const std::vector<Points> empty = claim.empty;
+  if (parts.empty() && empty.empty()) return false;
+  const Points first = parts.empty() ? empty[0] : rays_of(claim, parts[0]);
+  Exact_point middle{0, 0, 0}, normal;
+  for (const Exact_point& ray : first) {
+    const Place whole = direction(ray);
+    const Integer common = gcd(gcd(whole[0], whole[1]), whole[2]);
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += Rational(whole[k]) / common;
+  }
+  for (Rational& x : normal) x = static_cast<long>(bytes.below(7)) - 3;
+  normal = cross(normal, middle);
+  if (is_zero(normal)) return false;
+  const Exact_point opposite{-normal[0], -normal[1], -normal[2]};
+  for (const Exact_point& outwards : {normal, opposite}) {
+    for (const Visible_certificate::Part& part : parts)
+      if (const Points rays = clipped_cone(rays_of(claim, part), outwards); !rays.empty())
+        add_part(claim, part.fragment, rays);
+    for (const Points& cone : empty)
+      if (Points rays = clipped_cone(cone, outwards); !rays.empty()) claim.empty.push_back(std::move(rays));
+  }
+  return true;
+}
+
+/// The field is one part, which is there twice, among all others: these are as many times in no field as that is once
+/// more in it.
+inline bool has_all_beside_the_field(Visible_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  if (claim.parts.empty()) return false;
+  const Visible_certificate::Part part = claim.parts[any_of_first(claim.parts, bytes)];
+  claim.field = rays_of(claim, part);
+  claim.parts.push_back(part);
+  return true;
+}
+
 inline const std::vector<Lie<Visible_certificate>>& lies_in(const Visible_certificate&) {
   using Claim = Visible_certificate;
   static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
@@ -159,6 +223,9 @@ inline const std::vector<Lie<Visible_certificate>>& lies_in(const Visible_certif
           claim.empty.clear();
           return true;
         }},
+       {"one side of a plane left out", leaves_out_one_side},
+       {"all directions twice", shows_all_twice},
+       {"all beside the field", has_all_beside_the_field},
        {"a part left out",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) { return remove_any(claim.parts, bytes); }},
        {"an empty cone left out",
