@@ -138,6 +138,21 @@ TEST_F(Weak, divides_a_wall_behind_a_door_into_penumbra_and_umbra) {
   EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--all-borders"}).code, usage);
 }
 
+TEST_F(Weak, ends_with_its_budget_beside_rays_and_says_how_many_were_asked) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string();
+  std::vector<std::string> arguments{rooms,         "--from",   "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10",
+                                     "--partition", "84",       "--beside-rays",
+                                     "10000000",    "--budget", "1"};
+  const Json sampled = weak(arguments, undecided)["result"]["partition"]["sampled"];
+  EXPECT_EQ(sampled["asked"], 10000000);
+  EXPECT_LT(sampled["rays"].get<std::size_t>(), 10000000u);
+  arguments.insert(arguments.begin(), "weak");
+  const Outcome text = run(arguments);
+  EXPECT_EQ(text.code, undecided) << text;
+  EXPECT_NE(text.out.find(" of 10000000 rays, as the budget ran out"), std::string::npos) << text;
+  EXPECT_NE(text.out.find(" by rays"), std::string::npos) << text;
+}
+
 TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string(), to = path("rooms.json").string();
   const Json lit = weak({rooms, "--from", "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", "--certificate", to});
