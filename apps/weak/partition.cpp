@@ -2,6 +2,8 @@
 
 #include "partition_picture.h"
 
+#include <cmath>
+
 namespace sightline::app {
 
 namespace {
@@ -135,7 +137,10 @@ void print(const Divided_face& own) {
   }
   const auto percent = [&](Light light) {
     const Bounded share = share_of(own, light);
-    return fmt::format("{:.6f} %", 50 * (share.low + share.high));
+    constexpr double digits = 1e6;  // of which six are shown
+    if (100 * (share.high - share.low) * digits <= 1) return fmt::format("{:.6f} %", 50 * (share.low + share.high));
+    return fmt::format("between {:.6f} and {:.6f} %", std::floor(100 * share.low * digits) / digits,
+                       std::ceil(100 * share.high * digits) / digits);
   };
   row(fmt::format("face {}", own.face),
       fmt::format("lit {}, penumbra {}, umbra {}{}", percent(Light::lit), percent(Light::penumbra),

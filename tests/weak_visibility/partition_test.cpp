@@ -309,6 +309,19 @@ TEST(Partition_by_hand, shares_of_a_face_of_several_pieces_are_those_of_all_of_i
   EXPECT_LT(shares[0].high - shares[0].low, 0x1p-45);
 }
 
+TEST(Partition_by_hand, a_face_too_thin_for_areas_in_doubles_is_lit_as_what_is_not_dark) {
+  // Of its cells, which are all lit, none has an area that doubles tell.
+  Polygon_soup soup;
+  soup.add_point(0, 0, 0);
+  soup.add_point(3, 1, 0);
+  soup.add_point(1, Rational("4503599627370499/13510798882111488"), 0);
+  soup.add_face(std::vector<Point_id>{0, 1, 2});
+  const auto shares = partition_of(soup, {at(0, 0, 5), at(0, 1, 5), at(1, 0, 5)}, 0).shares();
+  EXPECT_EQ(shares[0].low, 1);
+  EXPECT_EQ(shares[0].high, 1);
+  for (const std::size_t light : {1, 2, 3}) EXPECT_EQ(shares[light].high, 0);
+}
+
 TEST(Partition_by_hand, a_face_that_is_bent_has_the_areas_of_its_triangles) {
   // Whichever diagonal bends it, the triangles have other areas than their shadows in z = 0; a lamp below sees none.
   const Faces faces{{at(0, 0, 0), at(4, 0, 0), at(4, 3, 0), at(0, 3, 4)}};
