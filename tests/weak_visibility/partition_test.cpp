@@ -472,6 +472,45 @@ TEST(Partition, without_time_is_undecided) {
   expect_share(Light_partitioner(scene).partition(0, {lamp()}, options, counters).shares()[3], 1);
 }
 
+/// Points of a parabola and the chord between its ends.
+Polygon_soup parabola(int corners) {
+  Polygon_soup soup;
+  std::vector<Point_id> loop;
+  for (int x = 0; x < corners; ++x) loop.push_back(soup.add_point(x, x * x, 0));
+  soup.add_face(loop);
+  return soup;
+}
+
+TEST(Partition, of_a_face_with_a_thousand_corners_is_one_cell_in_time) {
+  // Hours where the lines of all edges were arranged, and no end to it by what asks for the time.
+  const Scene scene(parabola(test_scenes::is_sanitized() ? 200 : 1000));
+  const Light_partitioner partitioner(scene);
+  Partition_counters counters;
+  for (const bool is_over : {false, true}) {
+    Partition_options options;
+    options.out_of_time = [&] { return is_over; };
+    const Light_partition found = partitioner.partition(0, {lamp()}, options, counters);
+    ASSERT_EQ(found.cells.size(), 1u);
+    EXPECT_EQ(found.cells[0].light, is_over ? Light::undecided : Light::lit);
+    EXPECT_EQ(found.cells[0].area.low, 1);
+  }
+}
+
+TEST(Partition, of_a_round_floor_under_a_table_is_as_the_eye_says) {
+  Random random(11);
+  Points round{at(-4, 0, 0)};
+  for (long k = -15; k <= 15; ++k) {
+    const Rational t = ratio(k, 5), w = 1 + t * t;
+    round.push_back({4 * (1 - t * t) / w, 8 * t / w, 0});
+  }
+  Faces faces{round, parallelogram(at(-1, -1, 1), at(2, 0, 0), at(0, 2, 0))};
+  for (const bool all_borders : {false, true}) {
+    Tally tally;
+    expect_right(soup_of(faces), lamp(), 0, 100, random, tally, all_borders);
+    for (std::size_t light = 0; light < 3; ++light) EXPECT_GT(tally.points[light], 0u);
+  }
+}
+
 TEST(Partition, that_time_ends_says_nothing_else_than_the_whole_one) {
   Random random(5);
   const Polygon_soup soup = triangles(random, 4, 6);
