@@ -2,6 +2,8 @@
 
 #include "partition_picture.h"
 
+#include <cmath>
+
 namespace sightline::app {
 
 namespace {
@@ -16,8 +18,9 @@ Json cell_number(std::size_t cell, std::size_t before) {
   return cell == Light_partition::none ? Json() : Json(before + cell);
 }
 
-Json rays_json(const Sampled_face& sampled) {
+Json rays_json(const Sampled_face& sampled, std::size_t asked) {
   Json result{{"rays", sampled.rays}};
+  if (sampled.ended) result["asked"] = asked;
   for (const Light light : {Light::lit, Light::penumbra, Light::umbra})
     result[name_of(light)] = sampled.shares[static_cast<std::size_t>(light)];
   return result;
@@ -92,12 +95,12 @@ void check_faces(const std::vector<Face_id>& faces, const Scene& scene) {
 
 /// Each of the faces, divided; what the budget leaves no time for is undecided.
 std::vector<Divided_face> divided_faces(const Partition_arguments& arguments, const Light_partitioner& partitioner,
-                                        const Scene& scene, const Sources& sources, double budget,
+                                        const Scene& scene, const Sources& sources, const Time_limit& limit,
                                         Partition_counters& counters) {
   Progress progress("dividing");
   Partition_options options;
   options.all_borders = arguments.all_borders;
-  options.out_of_time = Time_limit(budget).end();
+  options.out_of_time = limit.end();
   std::vector<Divided_face> divided;
   for (std::size_t k = 0; k < arguments.faces.size(); ++k) {
     Divided_face& own = divided.emplace_back(Divided_face{arguments.faces[k], {}, {}});
@@ -113,10 +116,10 @@ std::vector<Divided_face> divided_faces(const Partition_arguments& arguments, co
 }
 
 Json result_json(const Scene& scene, const std::vector<Divided_face>& divided,
-                 const std::optional<Sampled_face>& sampled) {
+                 const std::optional<Sampled_face>& sampled, std::size_t rays) {
   Json all = Json::array(), result;
   for (const Divided_face& own : divided) all.push_back(face_json(scene, own));
-  if (sampled) all.front()["sampled"] = rays_json(*sampled);
+  if (sampled) all.front()["sampled"] = rays_json(*sampled, rays);
   result["partition"] = all.front();
   if (all.size() > 1) result["partitions"] = std::move(all);
   return result;
@@ -134,7 +137,10 @@ void print(const Divided_face& own) {
   }
   const auto percent = [&](Light light) {
     const Bounded share = share_of(own, light);
-    return fmt::format("{:.6f} %", 50 * (share.low + share.high));
+    constexpr double digits = 1e6;  // of which six are shown
+    if (100 * (share.high - share.low) * digits <= 1) return fmt::format("{:.6f} %", 50 * (share.low + share.high));
+    return fmt::format("between {:.6f} and {:.6f} %", std::floor(100 * share.low * digits) / digits,
+                       std::ceil(100 * share.high * digits) / digits);
   };
   row(fmt::format("face {}", own.face),
       fmt::format("lit {}, penumbra {}, umbra {}{}", percent(Light::lit), percent(Light::penumbra),
@@ -143,12 +149,14 @@ void print(const Divided_face& own) {
   row("", fmt::format("{} cells; borders: {} parts of lines, {} of conics", cells, lines, conics));
 }
 
-void print(const Sampled_face& sampled) {
+void print(const Sampled_face& sampled, std::size_t asked) {
+  const std::string rays = sampled.ended ? fmt::format("{} of {} rays, as the budget ran out", sampled.rays, asked)
+                                         : fmt::format("{} rays", sampled.rays);
+  if (sampled.rays == 0) return row("", "by " + rays);
   const auto percent = [&](Light light) {
     return fmt::format("{} {:.2f} %", name_of(light), 100 * sampled.shares[static_cast<std::size_t>(light)]);
   };
-  row("", fmt::format("by {} rays: {}, {}, {}", sampled.rays, percent(Light::lit), percent(Light::penumbra),
-                      percent(Light::umbra)));
+  row("", fmt::format("by {}: {}, {}, {}", rays, percent(Light::lit), percent(Light::penumbra), percent(Light::umbra)));
 }
 
 void print(const Partition_counters& counters) {
@@ -195,28 +203,34 @@ Exit run_partition(const Partition_arguments& arguments, const Common& common, c
   const Light_partitioner partitioner(scene);
   const double prepare_seconds = watch.seconds();
   watch = {};
+  const Time_limit limit(common.budget);  // of rays, too
   Partition_counters counters;
-  const std::vector<Divided_face> divided =
-      divided_faces(arguments, partitioner, scene, sources, common.budget, counters);
+  const std::vector<Divided_face> divided = divided_faces(arguments, partitioner, scene, sources, limit, counters);
   const double seconds = watch.seconds();
+  watch = {};
   std::optional<Sampled_face> sampled;
   if (arguments.rays > 0)
-    sampled = sampled_face(occluders, divided.front(), sources.polygons, arguments.rays, common.seed);
+    sampled = sampled_face(occluders, divided.front(), sources.polygons, arguments.rays, common.seed, limit.end());
+  const double ray_seconds = watch.seconds();
 
   // 2. What is written and told of them.
   if (!svg.empty()) write_file(svg, picture_of(scene, divided.front(), sampled ? &*sampled : nullptr));
   const bool open = std::any_of(divided.begin(), divided.end(),
                                 [](const Divided_face& own) { return share_of(own, Light::undecided).high > 0; });
-  const Exit exit = open ? Exit::undecided : Exit::done;
-  if (write_json(common, "weak", scene, common.json.empty() ? Json() : result_json(scene, divided, sampled),
-                 counters_json(counters), {{"prepare", prepare_seconds}, {"partition", seconds}}))
+  const Exit exit = open || (sampled && sampled->ended) ? Exit::undecided : Exit::done;
+  Json all_seconds{{"prepare", prepare_seconds}, {"partition", seconds}};
+  if (sampled) all_seconds["rays"] = ray_seconds;
+  if (write_json(common, "weak", scene,
+                 common.json.empty() ? Json() : result_json(scene, divided, sampled, arguments.rays),
+                 counters_json(counters), all_seconds))
     return exit;
   scene_rows(scene);
   row("sources", fmt::format("{} convex polygons", sources.polygons.size()));
   for (const Divided_face& own : divided) print(own);
-  if (sampled) print(*sampled);
+  if (sampled) print(*sampled, arguments.rays);
   print(counters);
-  row("seconds", fmt::format("{:.4f}, and {:.4f} to prepare the scene", seconds, prepare_seconds));
+  row("seconds", fmt::format("{:.4f}, and {:.4f} to prepare the scene{}", seconds, prepare_seconds,
+                             sampled ? fmt::format(", {:.4f} by rays", ray_seconds) : ""));
   return exit;
 }
 

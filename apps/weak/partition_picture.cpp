@@ -152,7 +152,8 @@ std::vector<Flat_point> pixels_of(const Picture_frame& frame, const Light_partit
 }  // namespace
 
 Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divided,
-                          const std::vector<Weak_source>& sources, std::size_t rays, std::uint64_t seed) {
+                          const std::vector<Weak_source>& sources, std::size_t rays, std::uint64_t seed,
+                          const std::function<bool()>& out_of_time) {
   constexpr int in_a_square = 16;
   constexpr long fine = 1 << 20;
   const Scene& scene = occluders.scene();
@@ -170,7 +171,7 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
   // 2. Rays from each square of each piece, if they begin within it.
   Sampled_face sampled;
   double sum = 0;
-  for (std::size_t n = 0; n < divided.pieces.size(); ++n) {
+  for (std::size_t n = 0; n < divided.pieces.size() && !sampled.ended; ++n) {
     const Light_partition& partition = divided.pieces[n];
     const Near_plane& plane = occluders.plane(partition.piece);
     const std::vector<Flat_point> corners = chart_corners(scene, partition, doubles);
@@ -190,10 +191,11 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
       return sightline::side(source.plane, p) > 0 && sightline::side(plane, q) > 0 &&
              !occluders.blocker(p, q, plane, source.plane);
     };
-    for (long i = 0; i < count[0]; ++i)
-      for (long j = 0; j < count[1]; ++j) {
+    for (long i = 0; i < count[0] && !sampled.ended; ++i)
+      for (long j = 0; j < count[1] && !sampled.ended; ++j) {
         int asked = 0, free = 0;
-        for (int k = 0; k < in_a_square; ++k) {
+        for (int k = 0; k < in_a_square && !sampled.ended; ++k) {
+          sampled.ended = has_run_out(out_of_time);
           const auto place = [&](long at, long of) {
             Rational found(at * fine + static_cast<long>(random.below(fine)), of * fine);
             found.canonicalize();
@@ -205,7 +207,7 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
           ++asked;
           free += reaches(occluders.located(p));
         }
-        if (asked == 0) continue;
+        if (asked == 0 || sampled.ended) continue;
         const auto along = [](long at, long of) { return static_cast<double>(at) / static_cast<double>(of); };
         const Sampled_face::Square square{n,
                                           {along(i, count[0]), along(i + 1, count[0])},
@@ -222,7 +224,8 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
         sampled.squares.push_back(square);
       }
   }
-  for (double& share : sampled.shares) share /= sum;
+  if (sum > 0)
+    for (double& share : sampled.shares) share /= sum;
   return sampled;
 }
 

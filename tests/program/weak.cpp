@@ -138,6 +138,31 @@ TEST_F(Weak, divides_a_wall_behind_a_door_into_penumbra_and_umbra) {
   EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--all-borders"}).code, usage);
 }
 
+TEST_F(Weak, ends_with_its_budget_beside_rays_and_says_how_many_were_asked) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string();
+  std::vector<std::string> arguments{rooms,         "--from",   "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10",
+                                     "--partition", "84",       "--beside-rays",
+                                     "10000000",    "--budget", "1"};
+  const Json sampled = weak(arguments, undecided)["result"]["partition"]["sampled"];
+  EXPECT_EQ(sampled["asked"], 10000000);
+  EXPECT_LT(sampled["rays"].get<std::size_t>(), 10000000u);
+  arguments.insert(arguments.begin(), "weak");
+  const Outcome text = run(arguments);
+  EXPECT_EQ(text.code, undecided) << text;
+  EXPECT_NE(text.out.find(" of 10000000 rays, as the budget ran out"), std::string::npos) << text;
+  EXPECT_NE(text.out.find(" by rays"), std::string::npos) << text;
+}
+
+TEST_F(Weak, shows_both_bounds_of_shares_that_are_wider_than_their_digits) {
+  // Too thin for areas in doubles.
+  const std::string thin =
+      file("thin.qoff", "OFF\n3 1 0\n0 0 0\n3 1 0\n1 4503599627370499/13510798882111488 0\n3 0 1 2\n");
+  const Outcome lit = run({"weak", thin, "--from", "0,0,5 0,1,5 1,0,5", "--partition", "0"});
+  EXPECT_NE(lit.out.find("lit 100.000000 %, penumbra 0.000000 %, umbra 0.000000 %"), std::string::npos) << lit;
+  const Outcome split = run({"weak", thin, "--from", "3/2,0,0 3/2,1,5 3/2,0,5", "--partition", "0"});
+  EXPECT_NE(split.out.find("lit between 0.000000 and 100.000000 %"), std::string::npos) << split;
+}
+
 TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string(), to = path("rooms.json").string();
   const Json lit = weak({rooms, "--from", "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", "--certificate", to});

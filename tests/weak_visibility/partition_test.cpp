@@ -309,6 +309,19 @@ TEST(Partition_by_hand, shares_of_a_face_of_several_pieces_are_those_of_all_of_i
   EXPECT_LT(shares[0].high - shares[0].low, 0x1p-45);
 }
 
+TEST(Partition_by_hand, a_face_too_thin_for_areas_in_doubles_is_lit_as_what_is_not_dark) {
+  // Of its cells, which are all lit, none has an area that doubles tell.
+  Polygon_soup soup;
+  soup.add_point(0, 0, 0);
+  soup.add_point(3, 1, 0);
+  soup.add_point(1, Rational("4503599627370499/13510798882111488"), 0);
+  soup.add_face(std::vector<Point_id>{0, 1, 2});
+  const auto shares = partition_of(soup, {at(0, 0, 5), at(0, 1, 5), at(1, 0, 5)}, 0).shares();
+  EXPECT_EQ(shares[0].low, 1);
+  EXPECT_EQ(shares[0].high, 1);
+  for (const std::size_t light : {1, 2, 3}) EXPECT_EQ(shares[light].high, 0);
+}
+
 TEST(Partition_by_hand, a_face_that_is_bent_has_the_areas_of_its_triangles) {
   // Whichever diagonal bends it, the triangles have other areas than their shadows in z = 0; a lamp below sees none.
   const Faces faces{{at(0, 0, 0), at(4, 0, 0), at(4, 3, 0), at(0, 3, 4)}};
@@ -457,6 +470,45 @@ TEST(Partition, without_time_is_undecided) {
   const Polygon_soup soup = table(1, 1);
   const Scene scene(soup);
   expect_share(Light_partitioner(scene).partition(0, {lamp()}, options, counters).shares()[3], 1);
+}
+
+/// Points of a parabola and the chord between its ends.
+Polygon_soup parabola(int corners) {
+  Polygon_soup soup;
+  std::vector<Point_id> loop;
+  for (int x = 0; x < corners; ++x) loop.push_back(soup.add_point(x, x * x, 0));
+  soup.add_face(loop);
+  return soup;
+}
+
+TEST(Partition, of_a_face_with_a_thousand_corners_is_one_cell_in_time) {
+  // Hours where the lines of all edges were arranged, and no end to it by what asks for the time.
+  const Scene scene(parabola(test_scenes::is_sanitized() ? 200 : 1000));
+  const Light_partitioner partitioner(scene);
+  Partition_counters counters;
+  for (const bool is_over : {false, true}) {
+    Partition_options options;
+    options.out_of_time = [&] { return is_over; };
+    const Light_partition found = partitioner.partition(0, {lamp()}, options, counters);
+    ASSERT_EQ(found.cells.size(), 1u);
+    EXPECT_EQ(found.cells[0].light, is_over ? Light::undecided : Light::lit);
+    EXPECT_EQ(found.cells[0].area.low, 1);
+  }
+}
+
+TEST(Partition, of_a_round_floor_under_a_table_is_as_the_eye_says) {
+  Random random(11);
+  Points round{at(-4, 0, 0)};
+  for (long k = -15; k <= 15; ++k) {
+    const Rational t = ratio(k, 5), w = 1 + t * t;
+    round.push_back({4 * (1 - t * t) / w, 8 * t / w, 0});
+  }
+  Faces faces{round, parallelogram(at(-1, -1, 1), at(2, 0, 0), at(0, 2, 0))};
+  for (const bool all_borders : {false, true}) {
+    Tally tally;
+    expect_right(soup_of(faces), lamp(), 0, 100, random, tally, all_borders);
+    for (std::size_t light = 0; light < 3; ++light) EXPECT_GT(tally.points[light], 0u);
+  }
 }
 
 TEST(Partition, that_time_ends_says_nothing_else_than_the_whole_one) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -156,28 +157,70 @@ Curve_arrangement::Curve_arrangement(std::span<const Plane_curve> curves, const 
   if (!sort_distinct(roots, out_of_time)) return;
 
   // 2. What the curves are between.
+  constexpr std::size_t asked_after = 64;  // slabs, each with a root of each curve
+  std::vector<std::uint32_t> all(curves.size());
+  std::iota(all.begin(), all.end(), 0u);
+  for (std::size_t k = 0; k + 1 < roots.size(); ++k) {
+    if (k % asked_after == asked_after - 1 && has_run_out(out_of_time)) {
+      slabs_.clear();
+      return;
+    }
+    slabs_.push_back(slab_of(curves, all, between(roots[k], roots[k + 1])));
+  }
+  keep_doubles(curves, roots);
+}
+
+Curve_arrangement::Curve_arrangement(std::span<const Plane_curve> curves, const Chart_box& box,
+                                     std::span<const Stretch> stretches, std::span<const Rational> uprights)
+    : box_(box) {
+  std::vector<Rational> limits{exact(box.x0), exact(box.x1)};
+  limits.insert(limits.end(), uprights.begin(), uprights.end());
+  for (const Stretch& stretch : stretches) limits.insert(limits.end(), {stretch.from, stretch.to});
+  std::sort(limits.begin(), limits.end());
+  limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
+
+  // 1. The stretches over each slab.
+  const auto slab_from = [&](const Rational& x) {
+    return static_cast<std::size_t>(std::lower_bound(limits.begin(), limits.end(), x) - limits.begin());
+  };
+  std::vector<std::vector<std::uint32_t>> active(limits.size() - 1);
+  for (const Stretch& stretch : stretches)
+    for (std::size_t k = slab_from(stretch.from); k < slab_from(stretch.to); ++k) active[k].push_back(stretch.curve);
+
+  // 2. What they are between.
+  std::vector<Real_root> roots;
+  for (const Rational& x : limits) roots.emplace_back(x);
+  for (std::size_t k = 0; k + 1 < roots.size(); ++k)
+    slabs_.push_back(slab_of(curves, active[k], between(roots[k], roots[k + 1])));
+  keep_doubles(curves, roots);
+}
+
+/// What those curves are between at a place that none of them is upright at, and where no two of them meet.
+Curve_arrangement::Slab Curve_arrangement::slab_of(std::span<const Plane_curve> curves,
+                                                   std::span<const std::uint32_t> active, Rational x) const {
+  const Rational y0 = exact(box_.y0), y1 = exact(box_.y1);
   const Quadratic_root bottom(y0.get_num(), 0, Integer(0), y0.get_den()),
       top(y1.get_num(), 0, Integer(0), y1.get_den());
-  for (std::size_t k = 0; k + 1 < roots.size(); ++k) {
-    Slab& slab = slabs_.emplace_back();
-    slab.x = between(roots[k], roots[k + 1]);
-    std::vector<std::pair<Quadratic_root, Arc>> crossings;
-    for (std::uint32_t i = 0; i < curves.size(); ++i)
-      for (const bool upper : {false, true}) {
-        std::optional<Quadratic_root> y = curves[i].height(slab.x, upper);
-        if (y && bottom < *y && *y < top) crossings.emplace_back(std::move(*y), Arc{i, upper});
-      }
-    std::sort(crossings.begin(), crossings.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-    const Quadratic_root* below = &bottom;
-    for (const auto& [y, arc] : crossings) {
-      slab.y.push_back(inner_rational({*below, y}));
-      slab.arcs.push_back(arc);
-      below = &y;
+  Slab slab;
+  slab.x = std::move(x);
+  std::vector<std::pair<Quadratic_root, Arc>> crossings;
+  for (const std::uint32_t i : active)
+    for (const bool upper : {false, true}) {
+      std::optional<Quadratic_root> y = curves[i].height(slab.x, upper);
+      if (y && bottom < *y && *y < top) crossings.emplace_back(std::move(*y), Arc{i, upper});
     }
-    slab.y.push_back(inner_rational({*below, top}));
+  std::sort(crossings.begin(), crossings.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+  const Quadratic_root* below = &bottom;
+  for (const auto& [y, arc] : crossings) {
+    slab.y.push_back(inner_rational({*below, y}));
+    slab.arcs.push_back(arc);
+    below = &y;
   }
+  slab.y.push_back(inner_rational({*below, top}));
+  return slab;
+}
 
-  // 3. Doubles.
+void Curve_arrangement::keep_doubles(std::span<const Plane_curve> curves, std::vector<Real_root>& roots) {
   for (Real_root& root : roots) limits_.push_back(bounded(root));
   for (const Plane_curve& f : curves) {
     std::size_t most = 0;

@@ -27,6 +27,12 @@ struct Bounded {
 /// The doubles beside a number, or the number itself.
 Bounded bounds_of(const Rational& x);
 
+/// A part of a line that is not upright, from one x to a greater one.
+struct Stretch {
+  std::uint32_t curve;
+  Rational from, to;
+};
+
 /// Whether a curve may meet a closed rectangle. In doubles: false where it surely does not.
 bool may_meet(const Plane_curve& curve, const Chart_box& box);
 
@@ -38,6 +44,10 @@ class Curve_arrangement {
  public:
   Curve_arrangement(std::span<const Plane_curve> curves, const Chart_box& box,
                     const std::function<bool()>& out_of_time = {});
+  /// Of stretches of lines that do not cross, within the rectangle: slabs are between neighbours among their ends and
+  /// `uprights`, values of x within it. Cost: for n stretches, n log n, and the arcs of all slabs.
+  Curve_arrangement(std::span<const Plane_curve> curves, const Chart_box& box, std::span<const Stretch> stretches,
+                    std::span<const Rational> uprights);
   /// Whether time ran out: then there are no slabs.
   bool ended() const { return slabs_.empty(); }
 
@@ -63,6 +73,9 @@ class Curve_arrangement {
   Bounded area_below(const Arc& arc, std::size_t slab, int halvings = 14) const;
 
  private:
+  Slab slab_of(std::span<const Plane_curve> curves, std::span<const std::uint32_t> active, Rational x) const;
+  void keep_doubles(std::span<const Plane_curve> curves, std::vector<Real_root>& roots);
+
   std::vector<Slab> slabs_;
   std::vector<Bounded> limits_;
   std::vector<std::array<Bounded, 9>> near_;  // of each curve: a, b, c of a y^2 + b y + c, and b^2 - 4 a c

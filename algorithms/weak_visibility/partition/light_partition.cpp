@@ -19,7 +19,17 @@ namespace {
 
 using Share = CGAL::Interval_nt<>;
 
-Bounded share(const Share& sum) { return {std::max(sum.inf(), 0.0), std::min(sum.sup(), 1.0)}; }
+/// Each between 0 and 1, and no more and no less than the others leave of 1, which all of them are together.
+std::array<Bounded, lights> shares_of(const std::array<Share, lights>& sums) {
+  std::array<Bounded, lights> found;
+  for (std::size_t k = 0; k < lights; ++k) {
+    Share left = 1;
+    for (std::size_t other = 0; other < lights; ++other)
+      if (other != k) left -= Share(std::clamp(sums[other].inf(), 0.0, 1.0), std::clamp(sums[other].sup(), 0.0, 1.0));
+    found[k] = {std::max({sums[k].inf(), left.inf(), 0.0}), std::min({sums[k].sup(), left.sup(), 1.0})};
+  }
+  return found;
+}
 
 /// Twice its area, along its normal.
 Exact_point area_vector(const Scene& scene, const Piece& piece) {
@@ -45,9 +55,7 @@ Exact_point Light_partition::point(const Rational& x, const Rational& y) const {
 std::array<Bounded, lights> Light_partition::shares() const {
   std::array<Share, lights> sums{0, 0, 0, 0};
   for (const Cell& cell : cells) sums[static_cast<std::size_t>(cell.light)] += Share(cell.area.low, cell.area.high);
-  std::array<Bounded, lights> found;
-  std::transform(sums.begin(), sums.end(), found.begin(), share);
-  return found;
+  return shares_of(sums);
 }
 
 std::array<Bounded, lights> shares_of_face(const Scene& scene, std::span<const Light_partition> pieces) {
@@ -71,9 +79,8 @@ std::array<Bounded, lights> shares_of_face(const Scene& scene, std::span<const L
     const std::array<Bounded, lights> own = pieces[n].shares();
     for (std::size_t k = 0; k < lights; ++k) sums[k] += area * Share(own[k].low, own[k].high);
   }
-  std::array<Bounded, lights> found;
-  for (std::size_t k = 0; k < lights; ++k) found[k] = share(sums[k] / whole);
-  return found;
+  for (Share& sum : sums) sum /= whole;
+  return shares_of(sums);
 }
 
 std::size_t Light_partition::cell_at(const Rational& x, const Rational& y) const {

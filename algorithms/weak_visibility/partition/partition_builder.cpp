@@ -10,6 +10,9 @@
 
 namespace sightline::partition_detail {
 
+// Of so many edges of a piece the lines may all cross: a box has a few parts more.
+constexpr std::size_t many_edges = 8;
+
 Partition_builder::Partition_builder(const Occluders& occluders, const Near_polygon& piece, const Near_plane& plane,
                                      const std::vector<Weak_source>& sources, const Partition_options& options,
                                      Partition_counters& counters)
@@ -79,7 +82,7 @@ Partition_builder::Partition_builder(const Occluders& occluders, const Near_poly
     Plane_curve inwards = line.front();
     if (inwards.sign(middle[0], middle[1]) < 0)
       for (Integer& c : inwards.c) c = -c;
-    rim_.emplace_back(std::move(inwards), number);
+    rim_.push_back({std::move(inwards), number, {corners[i], corners[next]}});
     piece_area_ += (corners[i][0] * corners[next][1] - corners[next][0] * corners[i][1]) / 2;
   }
   piece_area_ = abs(piece_area_);
@@ -91,10 +94,12 @@ void Partition_builder::run(Light_partition& result) {
     std::vector<std::uint32_t>& all = blockers.emplace_back(source.lines.blockers().size());
     std::iota(all.begin(), all.end(), 0u);
   }
-  std::vector<std::size_t> curves;
+  std::vector<std::size_t> edges(rim_.size()), curves;
+  std::iota(edges.begin(), edges.end(), std::size_t{0});
+  const std::vector<std::size_t> lines = lines_of(edges);
   for (std::size_t k = 0; k < curves_.size(); ++k)
-    if (std::none_of(rim_.begin(), rim_.end(), [&](const auto& edge) { return edge.second == k; })) curves.push_back(k);
-  divide({0, 1, 0, 1}, blockers, curves, 0);
+    if (!std::binary_search(lines.begin(), lines.end(), k)) curves.push_back(k);
+  divide({0, 1, 0, 1}, blockers, curves, edges, 0);
   for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) join_leaf(leaf);
   join_sides(upright_sides_, true);
   join_sides(level_sides_, false);
@@ -105,7 +110,8 @@ void Partition_builder::run(Light_partition& result) {
 // ---- The grid
 
 void Partition_builder::divide(const Chart_box& box, const Blockers& given,
-                               const std::vector<std::size_t>& given_curves, int depth) {
+                               const std::vector<std::size_t>& given_curves,
+                               const std::vector<std::size_t>& given_edges, int depth) {
   constexpr std::size_t few = 4;
   constexpr int deepest = 16;
   ++counters_->boxes;
@@ -118,20 +124,20 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
   };
 
   // 1. Edges of the piece that cross it.
-  std::vector<std::size_t> rim;
-  for (const auto& [line, number] : rim_) {
+  std::vector<std::size_t> edges;
+  for (const std::size_t edge : given_edges) {
     bool in = false, out = false;
     for (const auto& [x, y] : at) {
-      const int sign = line.sign(exact(x), exact(y));
+      const int sign = rim_[edge].inwards.sign(exact(x), exact(y));
       in |= sign > 0;
       out |= sign < 0;
     }
     if (!in) return leave();
-    if (out) rim.push_back(number);
+    if (out) edges.push_back(edge);
   }
-  std::sort(rim.begin(), rim.end());
+  const std::vector<std::size_t> rim = lines_of(edges);
   if (is_over()) {
-    arrange(box, rim, rim, given, Light::undecided);
+    arrange(box, edges, rim, given, Light::undecided);
     return leave();
   }
 
@@ -148,7 +154,7 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
   const bool is_penumbra = some_seen && some_hidden;
   if (known || is_penumbra) {
     ++counters_->alike;
-    arrange(box, rim, rim, blockers, known ? *known : Light::penumbra);
+    arrange(box, edges, rim, blockers, known ? *known : Light::penumbra);
     return leave();
   }
 
@@ -162,7 +168,9 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
     });
     if (near && may_meet(curve.curve, box)) curves.push_back(k);
   }
-  if (curves.size() > few && depth < deepest) {
+  // The lines of many edges cross in too many places, unless they are alone.
+  const bool are_many = curves.size() > few || (!curves.empty() && edges.size() > many_edges);
+  if (are_many && depth < deepest) {
     Chart_box first = box, second = box;
     const bool upright = box.x1 - box.x0 >= box.y1 - box.y0;
     const double low = upright ? box.x0 : box.y0, high = upright ? box.x1 : box.y1;
@@ -178,14 +186,14 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
       at_cut = low + (at_cut - low) * 0.75;
     (upright ? first.x1 : first.y1) = at_cut;
     (upright ? second.x0 : second.y0) = at_cut;
-    divide(first, blockers, curves, depth + 1);
-    divide(second, blockers, curves, depth + 1);
+    divide(first, blockers, curves, edges, depth + 1);
+    divide(second, blockers, curves, edges, depth + 1);
     return;
   }
   curves.insert(curves.end(), rim.begin(), rim.end());
   std::sort(curves.begin(), curves.end());
   ++counters_->arrangements;
-  arrange(box, rim, curves, blockers, std::nullopt);
+  arrange(box, edges, curves, blockers, std::nullopt);
   leave();
 }
 
@@ -273,24 +281,32 @@ void Partition_builder::probe(const std::array<Filtered, 4>& corners, const Bloc
   }
 }
 
-void Partition_builder::arrange(const Chart_box& box, const std::vector<std::size_t>& rim,
+void Partition_builder::arrange(const Chart_box& box, const std::vector<std::size_t>& edges,
                                 const std::vector<std::size_t>& curves, const Blockers& blockers,
                                 std::optional<Light> known) {
   std::vector<Plane_curve> own;
   for (const std::size_t k : curves) own.push_back(curves_[k].curve);
   const bool is_open = known == Light::undecided;
-  Curve_arrangement arrangement(
-      own, box, is_open ? std::function<bool()>() : [this] { return is_over(); });
-  if (arrangement.ended()) return arrange(box, rim, rim, blockers, Light::undecided);
+  const std::vector<std::size_t> rim = lines_of(edges);
+  const bool is_outline = edges.size() > many_edges && curves == rim;
+  Curve_arrangement arrangement = is_outline
+                                      ? outline(box, edges, curves)
+                                      : Curve_arrangement(
+                                            own, box, is_open ? std::function<bool()>() : [this] { return is_over(); });
+  if (arrangement.ended()) return arrange(box, edges, rim, blockers, Light::undecided);
   Leaf& leaf = leaves_.emplace_back(Leaf{std::move(arrangement), curves, {}, box});
-  const bool is_whole = std::none_of(rim_.begin(), rim_.end(), [&](const auto& edge) {
-    return std::binary_search(curves.begin(), curves.end(), edge.second);
-  });
+  // Of an outline those of a slab tell whether a sector is inside, where there are any.
+  std::map<std::size_t, std::size_t> edge_of;
+  if (is_outline)
+    for (const std::size_t edge : edges) edge_of[rim_[edge].curve] = edge;
   for (const Curve_arrangement::Slab& slab : leaf.arrangement.slabs()) {
     leaf.first.push_back(sectors_.size());
+    std::vector<std::size_t> telling;
+    if (is_outline)
+      for (const Curve_arrangement::Arc& arc : slab.arcs) telling.push_back(edge_of[curves[arc.curve]]);
     for (const Rational& y : slab.y) {
       Sector sector{true, Light::undecided, 0, slab.x, y, 0};
-      sector.inside = is_whole || is_inside(sector.x, sector.y);
+      sector.inside = is_inside(telling.empty() ? edges : telling, sector.x, sector.y);
       if (sector.inside && known && (!options_->all_borders || is_open)) sector.light = *known;
       else if (sector.inside && !is_over()) {
         leave_planes(sector, own, box, blockers);
@@ -301,8 +317,47 @@ void Partition_builder::arrange(const Chart_box& box, const std::vector<std::siz
   }
 }
 
-bool Partition_builder::is_inside(const Rational& x, const Rational& y) const {
-  return std::all_of(rim_.begin(), rim_.end(), [&](const auto& edge) { return edge.first.sign(x, y) > 0; });
+std::vector<std::size_t> Partition_builder::lines_of(const std::vector<std::size_t>& edges) const {
+  std::vector<std::size_t> lines;
+  for (const std::size_t edge : edges) lines.push_back(rim_[edge].curve);
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+Curve_arrangement Partition_builder::outline(const Chart_box& box, const std::vector<std::size_t>& edges,
+                                             const std::vector<std::size_t>& curves) const {
+  const std::array<std::array<Rational, 2>, 2> low_high{
+      {{exact(box.x0), exact(box.y0)}, {exact(box.x1), exact(box.y1)}}};
+  std::vector<Plane_curve> own;
+  for (const std::size_t k : curves) own.push_back(curves_[k].curve);
+  std::vector<Stretch> stretches;
+  std::vector<Rational> uprights;
+  for (const std::size_t edge : edges) {
+    // The part of it in the box: from + t (to - from).
+    const auto& [p, q] = rim_[edge].ends;
+    Rational from = 0, to = 1;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Rational step = q[k] - p[k];
+      if (sgn(step) == 0) {
+        if (p[k] <= low_high[0][k] || p[k] >= low_high[1][k]) to = 0;
+        continue;
+      }
+      const Rational at_low = (low_high[0][k] - p[k]) / step, at_high = (low_high[1][k] - p[k]) / step;
+      from = std::max(from, std::min(at_low, at_high));
+      to = std::min(to, std::max(at_low, at_high));
+    }
+    if (from >= to) continue;
+    const Rational a = p[0] + from * (q[0] - p[0]), b = p[0] + to * (q[0] - p[0]);
+    const auto curve =
+        static_cast<std::uint32_t>(std::lower_bound(curves.begin(), curves.end(), rim_[edge].curve) - curves.begin());
+    if (a == b) uprights.push_back(a);
+    else stretches.push_back({curve, std::min(a, b), std::max(a, b)});
+  }
+  return {own, box, stretches, uprights};
+}
+
+bool Partition_builder::is_inside(const std::vector<std::size_t>& edges, const Rational& x, const Rational& y) const {
+  return std::all_of(edges.begin(), edges.end(), [&](std::size_t edge) { return rim_[edge].inwards.sign(x, y) > 0; });
 }
 
 bool Partition_builder::is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const {

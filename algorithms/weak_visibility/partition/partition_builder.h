@@ -59,22 +59,29 @@ class Partition_builder {
     std::vector<Touch> before, after;  // of rectangles left of it, or below; and the others
   };
 
-  void divide(const Chart_box& box, const Blockers& blockers, const std::vector<std::size_t>& curves, int depth);
+  /// `edges`, by number: those of the piece that may cross the box; it is within the others.
+  void divide(const Chart_box& box, const Blockers& blockers, const std::vector<std::size_t>& curves,
+              const std::vector<std::size_t>& edges, int depth);
   /// What is known of all points of a rectangle, or nothing. Leaves out what blocks nothing from it.
   std::optional<Light> alike(const std::array<Filtered, 4>& corners, Blockers& blockers) const;
   /// Whether somewhere all that can be proved of a rectangle by a few points of sources: that each of its points sees
   /// one of them, or one of them is hidden from all.
   void probe(const std::array<Filtered, 4>& corners, const Blockers& blockers, bool& some_seen,
              bool& some_hidden) const;
-  /// `rim`: those of the curves that are edges of the piece. Undecided where time runs out.
-  void arrange(const Chart_box& box, const std::vector<std::size_t>& rim, const std::vector<std::size_t>& curves,
+  /// `edges`: those of the piece whose lines cross the box. Undecided where time runs out.
+  void arrange(const Chart_box& box, const std::vector<std::size_t>& edges, const std::vector<std::size_t>& curves,
                const Blockers& blockers, std::optional<Light> known);
+  /// The lines of edges, as curves, in order.
+  std::vector<std::size_t> lines_of(const std::vector<std::size_t>& edges) const;
+  /// Of edges alone, between their corners: linear, where their lines cross as often as there are pairs.
+  Curve_arrangement outline(const Chart_box& box, const std::vector<std::size_t>& edges,
+                            const std::vector<std::size_t>& curves) const;
   bool is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const;
   /// A point in the plane of a piece does not see it: another one of the same sector, that is in none.
   void leave_planes(Sector& sector, const std::vector<Plane_curve>& curves, const Chart_box& box,
                     const Blockers& blockers) const;
   void classify(Sector& sector, const Blockers& blockers);
-  bool is_inside(const Rational& x, const Rational& y) const;
+  bool is_inside(const std::vector<std::size_t>& edges, const Rational& x, const Rational& y) const;
 
   void join_leaf(std::size_t leaf);
   void join_sides(std::map<double, Side>& sides, bool upright);
@@ -104,7 +111,13 @@ class Partition_builder {
   std::size_t never_seen_ = 0;                 // sources that face away
   std::vector<std::vector<Filtered>> probes_;  // points of each source
   std::vector<Border_curve> curves_;
-  std::vector<std::pair<Plane_curve, std::size_t>> rim_;  // lines of the piece's edges, the piece where they are > 0
+  /// An edge of the piece.
+  struct Edge {
+    Plane_curve inwards;  // its line, the piece where it is > 0
+    std::size_t curve;
+    std::array<std::array<Rational, 2>, 2> ends;
+  };
+  std::vector<Edge> rim_;
   Rational piece_area_;
   std::vector<Leaf> leaves_;
   std::vector<Sector> sectors_;

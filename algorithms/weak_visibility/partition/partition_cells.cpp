@@ -139,6 +139,10 @@ void Partition_builder::number_cells(Light_partition& result) {
 
 /// Areas, as shares of the piece's: what two parts of one cell have between them adds nothing.
 void Partition_builder::measure_cells(Light_partition& result) {
+  if (result.cells.size() == 1) {
+    result.cells[0].area = {1, 1};  // all of the piece, however thin
+    return;
+  }
   std::vector<Interval> areas(result.cells.size(), Interval(0));
   for (const Leaf& leaf : leaves_)
     for (std::size_t s = 0; s < leaf.first.size(); ++s) {
