@@ -7,14 +7,12 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/io/bit_rows.h>
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace fuzz {
