@@ -25,7 +25,7 @@ namespace sightline::harness {
 namespace {
 
 using generate::Points;
-using Whole_face = std::vector<Points>;  // its loops, each from its least corner, holes in order
+using Whole_face = std::vector<Points>;  // its loops, each begun where it is least, holes in order
 
 /// A star around a point, counterclockwise, without straight corners: its corners are in directions around the half
 /// circle by the tangent of half an angle, less than a half turn apart.
@@ -57,14 +57,24 @@ Polygon_soup prism_on(Points base, long height) {
   return soup;
 }
 
+/// The loop begun at its least corner; of one that comes back to that, so that it is the least list.
+Points begun_at_its_least(const Points& loop) {
+  Points least = loop, turned = loop;
+  for (std::size_t k = 1; k < loop.size(); ++k) {
+    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+    least = std::min(least, turned);
+  }
+  return least;
+}
+
 std::multiset<Whole_face> faces_in(const Polygon_soup& soup) {
   std::multiset<Whole_face> faces;
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     Whole_face face;
     for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
-      Points& loop = face.emplace_back();
+      Points loop;
       for (const Point_id p : soup.loop(f, k)) loop.push_back(soup.point(p));
-      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+      face.push_back(begun_at_its_least(loop));
     }
     std::sort(face.begin() + 1, face.end());
     faces.insert(std::move(face));
