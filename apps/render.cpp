@@ -134,7 +134,7 @@ static Exit run(const Render_arguments& arguments) {
   Image_options options;
   options.threads = common.threads;
   options.progress = common.within_budget(progress);
-  const View view = aimed(arguments.view.view(eye, scene), scene);
+  const View view = aimed(arguments.view.view(eye, scene, View_arguments::usual_margin, options.progress), scene);
   const Pixel_view pixels = pixel_view(view);
   const Rendered rendered = render(scene, view, arguments, options);
   if (!arguments.png.empty()) write_file(arguments.png, rendered.canvas.png());

@@ -214,7 +214,8 @@ static Direction3 middle_of(const std::vector<Direction3>& rays) {
   return axis;
 }
 
-View View_arguments::view(const Exact_point& eye, const Scene& scene, double margin) const {
+View View_arguments::view(const Exact_point& eye, const Scene& scene, double margin, const Report& in_time) const {
+  if (in_time) in_time(0, 1);
   std::vector<Exact_point> all;
   std::vector<bool> taken(scene.points().size());
   for (const Piece& piece : scene.pieces())
@@ -223,11 +224,11 @@ View View_arguments::view(const Exact_point& eye, const Scene& scene, double mar
         taken[corner.point] = true;
         all.push_back(scene.position(corner.point));
       }
-  return view(eye, scene, all, margin);
+  return view(eye, scene, all, margin, in_time);
 }
 
 View View_arguments::view(const Exact_point& eye, const Scene& scene, const std::vector<Exact_point>& shown,
-                          double margin) const {
+                          double margin, const Report& in_time) const {
   // 1. What is given.
   View view{eye};
   if (!look.empty()) view.look = parse_direction(look, "--look");
@@ -252,6 +253,7 @@ View View_arguments::view(const Exact_point& eye, const Scene& scene, const std:
     view = aimed(view, scene);
     span = span_of(view, rays);
     for (int step = 0; to_aim && span && step < 20; ++step) {
+      if (in_time) in_time(0, 1);
       const Axes axes = axes_of(view);
       View next = view;
       for (std::size_t k = 0; k < 3; ++k)

@@ -91,9 +91,12 @@ struct View_arguments {
   void check_usage(bool has_picture) const;
   /// Fitted to the points that are shown, or to all of the scene: what is not given of direction, field and height is
   /// such that these fill the picture but for so many pixels along its sides. Where they are all around the eye, it
-  /// looks to the middle of the scene, 90 degrees wide. Aimed, unless the scene is empty. Errors: Usage_error.
-  View view(const Exact_point& eye, const Scene& scene, double margin = 24) const;
-  View view(const Exact_point& eye, const Scene& scene, const std::vector<Exact_point>& shown, double margin) const;
+  /// looks to the middle of the scene, 90 degrees wide. Aimed, unless the scene is empty. in_time(): before each turn
+  /// over the points; what it throws ends them. Errors: Usage_error.
+  View view(const Exact_point& eye, const Scene& scene, double margin = usual_margin, const Report& in_time = {}) const;
+  View view(const Exact_point& eye, const Scene& scene, const std::vector<Exact_point>& shown, double margin,
+            const Report& in_time = {}) const;
+  static constexpr double usual_margin = 24;
 };
 
 /// Unit vectors to the right and upwards in the picture.
