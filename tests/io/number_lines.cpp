@@ -57,8 +57,12 @@ TEST(Number_lines, of_numbers_without_a_comma_between_them_are_refused) {
 
 TEST(Number_lines, that_are_not_what_is_wanted_are_named_with_their_place) {
   expect_error("1\n  1,2,3,4\n", "file:2:3: ", "expected one to three numbers, found \"1,2,3,4\"");
-  for (const char* text : {"1,,2", "1,", ",1", ",", "1/0", "1/", "0x1", "1;2", "1e99999"})
+  for (const char* text : {",1", ",", "1/0", "1/", "0x1", "1;2", "1e99999"})
     expect_error(text, "file:1:1: ", "a line wants one to three numbers");
+  for (const char* text : {"1,,2", "1,", "1,x", "1,1/0,3"})
+    expect_error(text, "file:1:3: ", "a line wants one to three numbers");
+  expect_error("1, 2,x", "file:1:1: ", "\"x\" is none");  // where there are blanks the line is named
+  expect_error("1,1e99999", "file:1:3: ", "(decimals or p/q, exponents within +-1100); \"1e99999\" is none");
 }
 
 TEST(Number_lines, of_which_there_is_none_are_an_error) {
