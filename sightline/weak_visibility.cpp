@@ -9,6 +9,7 @@
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/volume.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/kernel/time_limit.h>
 
 #include <atomic>
 #include <list>
@@ -96,7 +97,7 @@ Weak_visibility seen_from_solids(const Model& model, const std::vector<Polygon_s
   for (const Weak_volume& volume : volumes)
     add_seen_from_within(occluders.scene(), volume, asking.two_sided, *found, [&] {
       told.progress(all, all);  // which may end the question
-      return out_of_time && out_of_time();
+      return has_run_out(out_of_time);
     });
   return weak_answer(model, sources, asking, found);
 }

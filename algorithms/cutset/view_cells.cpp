@@ -17,8 +17,8 @@ std::uint32_t on_view_from(std::span<const std::array<Rational, 4>> planes, cons
 std::vector<View_cell> view_cells(std::span<const std::array<Rational, 4>> planes) {
   using namespace view_cells_detail;
   if (planes.size() > most_view_faces)
-    throw std::invalid_argument("views of " + std::to_string(planes.size()) + " faces: at most " +
-                                std::to_string(most_view_faces));
+    throw std::invalid_argument("views of " + std::to_string(planes.size()) + " faces; take a body of " +
+                                std::to_string(most_view_faces) + " at most");
   for (std::size_t k = 0; k < planes.size(); ++k)
     if (is_constant<3>(planes[k])) throw std::invalid_argument("plane " + std::to_string(k) + " has no normal");
   std::vector<View_cell> cells;

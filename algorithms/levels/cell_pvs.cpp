@@ -315,9 +315,7 @@ class Cell_pvs_search::Maker {
       for (const Exact_point& p : polygon) loop.push_back(soup.add_point(p[0], p[1], p[2]));
       soup.add_face(loop);
     };
-    for (const Piece& piece : level.pieces()) {
-      add(level.corner_points(piece));
-    }
+    for (const Piece& piece : level.pieces()) add(level.corner_points(piece));
     const Face_id target = static_cast<Face_id>(soup.face_count());
     add(points_of(ways_[to].source.polygon));
     const Scene scene(soup);

@@ -132,10 +132,8 @@ Weak_volume::Weak_volume(const Polygon_soup& soup,
         "the faces of a volume do not close up; add those that are missing, and turn the others so that all fronts "
         "look outwards, or all inwards");
   const std::vector<int> times = times_given(scene);
-  for (const Piece& piece : scene.pieces()) {
-    const Polygon polygon = scene.corner_points(piece);
-    faces_.push_back({std::move(polygon), scene.file_coefficients(piece.support), times[faces_.size()]});
-  }
+  for (const Piece& piece : scene.pieces())
+    faces_.push_back({scene.corner_points(piece), scene.file_coefficients(piece.support), times[faces_.size()]});
   Polygon corners;
   for (const Face& face : faces_) corners.insert(corners.end(), face.polygon.begin(), face.polygon.end());
   box_ = ranges_of(corners);

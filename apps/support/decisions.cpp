@@ -2,6 +2,8 @@
 
 #include "paths.h"
 
+#include <sightline/io/input.h>
+
 #include <iostream>
 
 namespace sightline::app {
@@ -18,7 +20,8 @@ void add_to(Command command, Decision_arguments& arguments) {
   command.add_flag("--inside", arguments.inside, "with --decision-tree: no face on-view is possible too, at weight 0");
 }
 
-Decisions decide(const Decision_arguments& arguments, const Face_graph& graph) {
+/// Errors: std::invalid_argument for a scene that has no such tree; those of reading the likelihood.
+static Decisions decided(const Decision_arguments& arguments, const Face_graph& graph) {
   Decisions found;
   std::vector<std::uint32_t> nodes(graph.size());
   std::iota(nodes.begin(), nodes.end(), 0u);
@@ -29,12 +32,7 @@ Decisions decide(const Decision_arguments& arguments, const Face_graph& graph) {
     planes.push_back(graph.scene().file_coefficients(graph.plane(node)));
     found.faces.push_back(graph.scene().pieces()[graph.piece(node)].face);
   }
-  const std::string& file = graph.scene().file();
-  if (planes.empty())
-    throw std::runtime_error(file + ": no face is left, and a decision tree tells faces' views apart");
-  if (planes.size() > most_view_faces)
-    throw std::runtime_error(
-        fmt::format("{}: views of {} faces; take a body of {} at most", file, planes.size(), most_view_faces));
+  if (planes.empty()) throw std::invalid_argument("no face is left, and a decision tree tells faces' views apart");
   const std::vector<View_cell> cells = view_cells(planes);
   found.cells = cells.size();
   for (const View_cell& cell : cells) found.open_cells += cell.open;
@@ -61,6 +59,14 @@ Decisions decide(const Decision_arguments& arguments, const Face_graph& graph) {
   }
   found.tree = least_tests(views, static_cast<unsigned>(planes.size()));
   return found;
+}
+
+Decisions decide(const Decision_arguments& arguments, const Face_graph& graph) {
+  try {
+    return decided(arguments, graph);
+  } catch (const std::invalid_argument& error) {
+    throw Input_error::of_file(graph.scene().file(), error.what());
+  }
 }
 
 static std::vector<Face_id> faces_of(const Decisions& decisions, std::uint32_t view) {

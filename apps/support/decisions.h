@@ -21,7 +21,7 @@ struct Decisions {
   std::vector<Face_id> faces;  ///< of bit k; the lowest face id of those in one plane that hang together
   std::size_t cells = 0, open_cells = 0;
 };
-/// Errors: Input_error for a bad file; std::invalid_argument, std::length_error for too many faces.
+/// Errors: Input_error for a bad file, and for a scene that has no such tree; std::length_error for too many views.
 Decisions decide(const Decision_arguments& arguments, const Face_graph& graph);
 Json to_json(const Decisions& decisions);
 void print(const Decisions& decisions);

@@ -39,6 +39,12 @@ Rational power_of_two(int power) {
   return value;
 }
 
+Rational long_integer(Random& random) {
+  const Rational size = power_of_two(static_cast<int>(random.between(52, 57)));
+  const Rational value = size + integer(random, -9, 9);
+  return random.chance(1, 2) ? Rational(-value) : value;
+}
+
 int size_bits(const Polygon_soup& soup) {
   Rational most = 1;
   for (std::size_t k = 0; k < soup.coordinates.size(); ++k) most = std::max(most, Rational(abs(soup.coordinates[k])));

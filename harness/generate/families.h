@@ -71,6 +71,8 @@ Posed_scene placed(Posed_scene scene, const Family_parameters& parameters);
 
 /// 2^power. Exact: yes
 Rational power_of_two(int power);
+/// A whole number about as long as doubles hold, or a little longer: 2^52 to 2^57, give or take 9, of either sign.
+Rational long_integer(Random& random);
 
 /// So many ulps of a scene whose coordinates are at most 2^bits. Exact: yes
 inline Rational ulps_of_size(std::int64_t ulps, int bits) {

@@ -20,10 +20,8 @@ namespace {
 
 /// A planar convex piece of the scene.
 std::vector<Exact_point> a_piece(const Scene& scene, std::uint64_t seed) {
-  std::vector<Exact_point> points;
-  if (scene.pieces().empty()) return points;
-  points = scene.corner_points(scene.pieces()[seed % scene.pieces().size()]);
-  return points;
+  if (scene.pieces().empty()) return {};
+  return scene.corner_points(scene.pieces()[seed % scene.pieces().size()]);
 }
 
 bool are_same(const Polygon_soup& a, const Polygon_soup& b) {

@@ -81,8 +81,7 @@ struct Flat_piece {
 std::vector<Flat_piece> pieces_of(const Scene& scene) {
   std::vector<Flat_piece> pieces;
   for (const Piece& piece : scene.pieces()) {
-    Flat_piece flat{piece.face, piece.support.id(), {}, {}};
-    flat.corners = scene.corner_points(piece);
+    Flat_piece flat{piece.face, piece.support.id(), scene.corner_points(piece), {}};
     flat.plane = {newell_normal(flat.corners), flat.corners[0]};
     pieces.push_back(std::move(flat));
   }

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/solids/operands.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/transform.h>
@@ -143,10 +144,7 @@ std::string flaw_far(Random& random) {
   const Polygon_soup near = result_of(solids, operation).soup;
   static constexpr std::array<long, 4> primes{1048583, 2097143, 16777213, 1073741789};
   Exact_point away;
-  for (Rational& x : away) {
-    x = generate::power_of_two(static_cast<int>(random.between(52, 57))) + generate::integer(random, -9, 9);
-    if (random.chance(1, 2)) x = -x;
-  }
+  for (Rational& x : away) x = generate::long_integer(random);
   away[random.below(3)] += generate::ratio(1, primes[random.below(primes.size())]);
   const Polygon_soup far = generate::translated(any_tetrahedron(random), away);
   generate::append(solids[0], far);

@@ -29,10 +29,7 @@ int Flat_face::side_within(const Exact_point& p) const {
 
 std::vector<Flat_face> flat_faces_of(const Scene& scene) {
   std::vector<Flat_face> faces;
-  for (const Piece& piece : scene.pieces()) {
-    const Points corners = scene.corner_points(piece);
-    faces.emplace_back(std::move(corners));
-  }
+  for (const Piece& piece : scene.pieces()) faces.emplace_back(scene.corner_points(piece));
   return faces;
 }
 

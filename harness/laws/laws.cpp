@@ -196,10 +196,7 @@ std::optional<Image> with_a_bystander(const Posed_scene& scene, Random& random) 
   const Rational size = power_of_two(static_cast<int>(random.between(-power, power)));
   Exact_point away{0, 0, 0};
   if (power == 0 && scene.soup.face_count() <= few_faces && random.chance(1, 6)) {
-    for (Rational& x : away) {
-      x = power_of_two(static_cast<int>(random.between(52, 57))) + integer(random, -9, 9);
-      if (random.chance(1, 2)) x = -x;
-    }
+    for (Rational& x : away) x = long_integer(random);
     away[axis] = abs(away[axis]);
     away[random.below(3)] += ratio(1, 2097143);  // a prime
   }
@@ -233,8 +230,7 @@ const std::vector<Law>& laws() {
       {"cut", "a convex face cut in two", everywhere, cut},
       {"bystander",
        "a face more, out of sight, of some small scenes 2^-1200 to 2^1200 times as large, or so far away, by a "
-       "fraction, "
-       "that coordinates have 52 to 57 bits",
+       "fraction, that coordinates have 52 to 57 bits",
        everywhere, with_a_bystander}};
   return all;
 }

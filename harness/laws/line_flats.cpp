@@ -20,8 +20,7 @@ Exact_point between(const Exact_point& p, const Rational& t, const Exact_point& 
 Flat_pieces flat_pieces(const Scene& scene) {
   Flat_pieces flats;
   for (const Piece& piece : scene.pieces()) {
-    Flat_piece flat{{}, {}, {}, piece.face};
-    flat.corners = scene.corner_points(piece);
+    Flat_piece flat{scene.corner_points(piece), {}, {}, piece.face};
     const Points& c = flat.corners;
     flat.plane.normal = cross(minus(c[1], c[0]), minus(c[2], c[0]));
     flat.plane.offset = dot(flat.plane.normal, c[0]);

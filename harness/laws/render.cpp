@@ -200,10 +200,7 @@ Outcome by_newell(const Seen& seen) {
 /// top. At some pixels.
 Outcome heedless(const Seen& seen) {
   std::vector<Flat_face> faces;
-  for (const Piece& piece : seen.scene.pieces()) {
-    const generate::Points corners = seen.scene.corner_points(piece);
-    faces.emplace_back(std::move(corners));
-  }
+  for (const Piece& piece : seen.scene.pieces()) faces.emplace_back(seen.scene.corner_points(piece));
   const Exact_point eye = seen.pixels.eye, look = exact(seen.pixels.look);
   for (const Painter_key key : {Painter_key::nearest, Painter_key::farthest, Painter_key::mean}) {
     const Piece_image image = heedless_painter(seen.scene, seen.pixels, key, Image_kernel::exact, serial());

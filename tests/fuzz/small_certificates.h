@@ -207,8 +207,7 @@ inline void try_points_on_edges(generate::Random& random) {
   if (scene.pieces().empty() || scene.non_planar().empty()) return;
   Outlined parts;
   for (const Piece& piece : scene.pieces()) {
-    generate::Points& corners = parts.emplace_back();
-    corners = scene.corner_points(piece);
+    generate::Points& corners = parts.emplace_back(scene.corner_points(piece));
     std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(random.below(corners.size())),
                 corners.end());
   }

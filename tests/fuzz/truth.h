@@ -21,10 +21,7 @@ inline Known_scene known(const Polygon_soup& soup) {
   const Scene scene(soup);
   Known_scene all{soup, std::vector<std::vector<Flat>>(soup.face_count()), std::vector<bool>(soup.face_count()),
                   std::vector<bool>(soup.face_count())};
-  for (const Piece& piece : scene.pieces()) {
-    const Points corners = scene.corner_points(piece);
-    all.parts[piece.face].emplace_back(std::move(corners));
-  }
+  for (const Piece& piece : scene.pieces()) all.parts[piece.face].emplace_back(scene.corner_points(piece));
   for (const sightline::Set_aside& entry : scene.set_aside()) {
     all.set_aside[entry.face] = true;
     if (entry.reason != Set_aside_reason::duplicate) continue;

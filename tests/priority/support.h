@@ -181,10 +181,7 @@ struct Related {
   Flats flats;  ///< the scene's pieces, from positions only
 
   explicit Related(Polygon_soup given) : soup(std::move(given)), scene(soup), traits(scene), relation(traits) {
-    for (const Piece& piece : scene.pieces()) {
-      const Points corners = scene.corner_points(piece);
-      flats.emplace_back(corners);
-    }
+    for (const Piece& piece : scene.pieces()) flats.emplace_back(scene.corner_points(piece));
   }
   Related(const Related&) = delete;
 };

@@ -287,13 +287,12 @@ void Partition_builder::arrange(const Chart_box& box, const std::vector<std::siz
   std::vector<Plane_curve> own;
   for (const std::size_t k : curves) own.push_back(curves_[k].curve);
   const bool is_open = known == Light::undecided;
-  const std::vector<std::size_t> rim = lines_of(edges);
-  const bool is_outline = edges.size() > many_edges && curves == rim;
+  const bool is_outline = edges.size() > many_edges && curves.size() == edges.size();  // their lines, and no others
   Curve_arrangement arrangement = is_outline
-                                      ? outline(box, edges, curves)
+                                      ? outline(box, edges, curves, own)
                                       : Curve_arrangement(
                                             own, box, is_open ? std::function<bool()>() : [this] { return is_over(); });
-  if (arrangement.ended()) return arrange(box, edges, rim, blockers, Light::undecided);
+  if (arrangement.ended()) return arrange(box, edges, lines_of(edges), blockers, Light::undecided);
   Leaf& leaf = leaves_.emplace_back(Leaf{std::move(arrangement), curves, {}, box});
   // Of an outline those of a slab tell whether a sector is inside, where there are any.
   std::map<std::size_t, std::size_t> edge_of;
@@ -325,11 +324,10 @@ std::vector<std::size_t> Partition_builder::lines_of(const std::vector<std::size
 }
 
 Curve_arrangement Partition_builder::outline(const Chart_box& box, const std::vector<std::size_t>& edges,
-                                             const std::vector<std::size_t>& curves) const {
+                                             const std::vector<std::size_t>& curves,
+                                             const std::vector<Plane_curve>& own) const {
   const std::array<std::array<Rational, 2>, 2> low_high{
       {{exact(box.x0), exact(box.y0)}, {exact(box.x1), exact(box.y1)}}};
-  std::vector<Plane_curve> own;
-  for (const std::size_t k : curves) own.push_back(curves_[k].curve);
   std::vector<Stretch> stretches;
   std::vector<Rational> uprights;
   for (const std::size_t edge : edges) {

@@ -68,14 +68,15 @@ class Partition_builder {
   /// one of them, or one of them is hidden from all.
   void probe(const std::array<Filtered, 4>& corners, const Blockers& blockers, bool& some_seen,
              bool& some_hidden) const;
-  /// `edges`: those of the piece whose lines cross the box. Undecided where time runs out.
+  /// `edges`: those of the piece whose lines cross the box, which are among the curves. Undecided where time runs out.
   void arrange(const Chart_box& box, const std::vector<std::size_t>& edges, const std::vector<std::size_t>& curves,
                const Blockers& blockers, std::optional<Light> known);
   /// The lines of edges, as curves, in order.
   std::vector<std::size_t> lines_of(const std::vector<std::size_t>& edges) const;
-  /// Of edges alone, between their corners: linear, where their lines cross as often as there are pairs.
+  /// Of edges alone, between their corners: linear, where their lines cross as often as there are pairs. `own`: the
+  /// curves themselves.
   Curve_arrangement outline(const Chart_box& box, const std::vector<std::size_t>& edges,
-                            const std::vector<std::size_t>& curves) const;
+                            const std::vector<std::size_t>& curves, const std::vector<Plane_curve>& own) const;
   bool is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const;
   /// A point in the plane of a piece does not see it: another one of the same sector, that is in none.
   void leave_planes(Sector& sector, const std::vector<Plane_curve>& curves, const Chart_box& box,
