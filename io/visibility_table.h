@@ -38,8 +38,8 @@ struct Visibility_table {
 std::string table_bytes(const Visibility_table& table);
 
 /// Reads a table, also of older programs: `sightline pvs 1`, and with pairs of cells `2`, which have no sum. Errors:
-/// Input_error where the bytes are none, end too soon, or have not their sum. Cost: one pass; memory in proportion to
-/// the bytes.
+/// Input_error where the bytes are none, end too soon, or have not their sum; and of a scene without faces, whose rows
+/// take no byte, where there are 65,536 rows more than bytes. Cost: one pass; memory in proportion to the bytes.
 Visibility_table read_table(const Input& input);
 
 /// Parts that are none of one table, or not all of it; names the parts.

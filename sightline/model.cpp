@@ -4,6 +4,7 @@
 #include <sightline/io/read.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/scene/whole_points.h>
 #include <sightline/kernel/time_limit.h>
 #include <sightline/kernel/vectors.h>
 
@@ -16,51 +17,64 @@
 namespace sightline {
 namespace {
 
-// ---- Measures: exact vectors, one root at the end
+// ---- Measures: of whole numbers, rounded at the end
 
-/// A sum of roots of rationals, each times a sign: within four times 2^-places.
-struct Signed_root {
-  int sign;
-  Rational square;
-};
-Rational sum_of_roots(const std::array<Signed_root, 4>& roots, long places) {
-  Integer sum = 0;
-  for (const Signed_root& root : roots) {
-    const Rational scaled = times_power(root.square, 2 * places);
-    sum += root.sign * Integer(sqrt(Integer(scaled.get_num() / scaled.get_den())));
-  }
-  return times_power(Rational(sum), -places);
+/// x 2^-exponent, to 2^-52 of itself.
+double near(const Integer& x, long exponent) {
+  long own;
+  const double mantissa = mpz_get_d_2exp(&own, x.get_mpz_t());
+  return std::ldexp(mantissa, static_cast<int>(own - exponent));
 }
 
-double angle_of_tangent(const Rational& height, const Rational& width) {
-  const Exact_point scaled = scaled_to_one({height, width, 0});
-  return std::atan2(nearest_double(scaled[0]), nearest_double(scaled[1]));
+/// A direction; times 2^-exponent its largest coordinate is between 1/2 and 1, so that doubles hold products of it.
+struct Whole_direction {
+  Whole_point v;
+  long exponent;
+};
+Whole_direction direction(const Exact_point& from, const Exact_point& to) {
+  const std::array<Exact_point, 2> ends{from, to};
+  const std::vector<Whole_point> whole = made_whole(ends).points;
+  Whole_direction direction{minus(whole[1], whole[0]), 0};
+  for (const Integer& x : direction.v)
+    direction.exponent = std::max(direction.exponent, static_cast<long>(bit_length(x)));
+  return direction;
+}
+
+/// The sum of roots of whole numbers, each times a sign, times 2^places: to 4.
+struct Signed_root {
+  int sign;
+  Integer square;
+};
+Integer sum_of_roots(const std::array<Signed_root, 4>& roots, mp_bitcnt_t places) {
+  Integer sum = 0;
+  for (const Signed_root& root : roots) sum += root.sign * Integer(sqrt(Integer(root.square << (2 * places))));
+  return sum;
 }
 
 /// Of a triangle by Van Oosterom and Strackee's formula: half of it has a tangent that is a volume over a sum of roots.
 /// The volume is exact, so that thin triangles keep their precision. Where the eye is close to a triangle both may be
-/// close to 0; then the roots are taken to as many places as that needs. Pre: directions to its corners,
-/// scaled_to_one().
-double solid_angle_of(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
+/// close to 0 beside the roots; then these are taken to so many places that the larger of both, which is no less than 1
+/// in whole numbers, has 58 bits.
+double solid_angle_of(const Whole_direction& a, const Whole_direction& b, const Whole_direction& c) {
   constexpr double large = 0x1p-6;  // of a sum, by its largest term: doubles have it to about 2^-44 of itself
-  constexpr long more_places = 60;
-  const Rational volume = abs(dot(a, cross(b, c)));
+  constexpr mp_bitcnt_t places = 60;
+  const Integer volume = abs(dot(a.v, cross(b.v, c.v)));
   if (volume == 0) return 0;
-  const Rational aa = dot(a, a), bb = dot(b, b), cc = dot(c, c), ab = dot(a, b), bc = dot(b, c), ca = dot(c, a);
-  const double la = square_root(aa), lb = square_root(bb), lc = square_root(cc), near_volume = nearest_double(volume),
-               below = la * lb * lc + nearest_double(ab) * lc + nearest_double(bc) * la + nearest_double(ca) * lb;
-  double half = std::atan2(near_volume, below);
-  if (std::hypot(near_volume, below) < large * la * lb * lc) {
-    const std::array<Signed_root, 4> roots{
-        {{1, aa * bb * cc}, {sgn(ab), ab * ab * cc}, {sgn(bc), bc * bc * aa}, {sgn(ca), ca * ca * bb}}};
-    for (long places = 2 * more_places;; places *= 2) {
-      const Rational sum = sum_of_roots(roots, places);
-      if (std::max(volume, Rational(abs(sum))) < times_power(Rational(1), more_places - places)) continue;
-      half = angle_of_tangent(volume, sum);
-      break;
-    }
-  }
-  return 2 * half;
+  const Integer aa = dot(a.v, a.v), bb = dot(b.v, b.v), cc = dot(c.v, c.v), ab = dot(a.v, b.v), bc = dot(b.v, c.v),
+                ca = dot(c.v, a.v);
+  const double la = std::sqrt(near(aa, 2 * a.exponent)), lb = std::sqrt(near(bb, 2 * b.exponent)),
+               lc = std::sqrt(near(cc, 2 * c.exponent)),
+               near_volume = near(volume, a.exponent + b.exponent + c.exponent),
+               below = la * lb * lc + near(ab, a.exponent + b.exponent) * lc + near(bc, b.exponent + c.exponent) * la +
+                       near(ca, c.exponent + a.exponent) * lb;
+  if (std::hypot(near_volume, below) >= large * la * lb * lc) return 2 * std::atan2(near_volume, below);
+  const Integer height = volume << places, width = sum_of_roots({{{1, Integer(aa * bb * cc)},
+                                                                  {sgn(ab), Integer(ab * ab * cc)},
+                                                                  {sgn(bc), Integer(bc * bc * aa)},
+                                                                  {sgn(ca), Integer(ca * ca * bb)}}},
+                                                                places);
+  const auto bits = static_cast<long>(std::max(bit_length(height), bit_length(width)));
+  return 2 * std::atan2(near(height, bits), near(width, bits));
 }
 
 void require_index(std::uint32_t index, std::size_t count) {
@@ -93,17 +107,26 @@ std::string Answer::certificate(const Asking::Progress& progress) const {
 // ---- Parts
 
 double Part::area() const {
-  Exact_point twice{0, 0, 0};
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const Exact_point part = cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0]));
+  const Whole_points whole = made_whole(corners);
+  const std::vector<Whole_point>& p = whole.points;
+  Whole_point twice{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+    const Whole_point part = cross(minus(p[i], p[0]), minus(p[i + 1], p[0]));
     for (std::size_t k = 0; k < 3; ++k) twice[k] += part[k];
   }
-  return square_root(dot(twice, twice)) / 2;
+  long exponent, of_scale;
+  double square = mpz_get_d_2exp(&exponent, Integer(dot(twice, twice)).get_mpz_t());
+  const double scale = mpz_get_d_2exp(&of_scale, Integer(whole.scale * whole.scale).get_mpz_t());
+  if (exponent % 2 != 0) {
+    square *= 2;
+    --exponent;
+  }
+  return std::ldexp(std::sqrt(square) / scale, static_cast<int>(exponent / 2 - of_scale)) / 2;
 }
 
 double Part::solid_angle(const Exact_point& eye) const {
-  std::vector<Exact_point> rays;
-  for (const Exact_point& p : corners) rays.push_back(scaled_to_one(minus(p, eye)));
+  std::vector<Whole_direction> rays;
+  for (const Exact_point& p : corners) rays.push_back(direction(eye, p));
   double sum = 0;
   for (std::size_t i = 1; i + 1 < rays.size(); ++i) sum += solid_angle_of(rays[0], rays[i], rays[i + 1]);
   return sum;

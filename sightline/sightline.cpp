@@ -183,7 +183,9 @@ Seen Seen::Inside::answer(const Model& model, const Exact_point& eye, const std:
   answer.eye = eye;
   answer.visible = surface->visible;
   answer.from_behind = surface->from_behind;
-  for (const auto& part : surface->parts) {
+  for (std::size_t k = 0; k < surface->parts.size(); ++k) {
+    if (options.progress && k % 1024 == 0) options.progress(k, surface->parts.size());
+    const auto& part = surface->parts[k];
     if (part.piece == surface->nothing) continue;
     const Piece& piece = scene.pieces()[part.piece];
     Seen::Visible_part& seen = answer.parts.emplace_back();
@@ -205,12 +207,18 @@ std::array<double, 2> Seen::Inside::measures_of(const Seen& seen, Face_id face) 
   const Inside& inside = of(seen);
   require_face(face, inside.model->soup.face_count());
   const auto& measures = inside.measures.get([&] {
+    std::vector<std::array<double, 2>> of_parts(seen.parts.size());
+    run_with_threads(inside.threads, [&] {
+      parallel_for(of_parts.size(), [&](std::size_t k) {
+        const Seen::Visible_part& part = seen.parts[k];
+        if (part.from_front) of_parts[k] = {part.area(), part.solid_angle(seen.eye)};
+      });
+    });
     std::map<Face_id, std::array<double, 2>> sums;
-    for (const Seen::Visible_part& part : seen.parts) {
-      if (!part.from_front) continue;
-      std::array<double, 2>& sum = sums[part.face];
-      sum[0] += part.area();
-      sum[1] += part.solid_angle(seen.eye);
+    for (std::size_t k = 0; k < of_parts.size(); ++k) {
+      if (!seen.parts[k].from_front) continue;
+      std::array<double, 2>& sum = sums[seen.parts[k].face];
+      for (std::size_t m = 0; m < sum.size(); ++m) sum[m] += of_parts[k][m];
     }
     return sums;
   });

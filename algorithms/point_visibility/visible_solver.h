@@ -183,9 +183,10 @@ class Solver {
     out.counters.depth = std::max<std::uint64_t>(out.counters.depth, task.depth);
     if (task.has_cover()) {
       seen_.note(piece);
+      Predicate_counts uncounted;  // which regions ask depends on which thread is first to see a face
       for (const std::uint32_t chunk : task.tied) {
         const std::uint32_t other = chunks_.piece_of(chunk);
-        if (!seen_.has(other) && chunks_.meets(chunk, task.region, out.counters.predicates)) seen_.note(other);
+        if (!seen_.has(other) && chunks_.meets(chunk, task.region, uncounted)) seen_.note(other);
       }
     }
     done_.add(share);

@@ -32,7 +32,7 @@ struct Visible_counters {
       splits = 0, crossings = 0,
       merged = 0;  ///< leaves; cuts, of them along a line where two pieces cross; pairs of leaves put together again
   std::uint64_t depth = 0;
-  Predicate_counts predicates;
+  Predicate_counts predicates;  ///< but those that tell which faces in one plane are seen where another is shown
   /// Each by its key in reports, in their order, but for what the scene has and predicates.
   template <class Visit>
   static void each(Visit visit) {

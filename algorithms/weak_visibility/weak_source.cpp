@@ -1,6 +1,7 @@
 #include <sightline/algorithms/weak_visibility/weak_source.h>
 
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/whole_points.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -12,22 +13,6 @@
 namespace sightline {
 
 namespace {
-
-using Whole_point = std::array<Integer, 3>;
-
-/// Points times the least common multiple of all denominators: differences and products of these need no gcd.
-std::vector<Whole_point> made_whole(const std::vector<Exact_point>& points) {
-  Integer common = 1;
-  for (const Exact_point& p : points)
-    for (const Rational& x : p)
-      if (x.get_den() != common) common = lcm(common, x.get_den());
-  std::vector<Whole_point> whole;
-  for (const Exact_point& p : points) {
-    Whole_point& at = whole.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) at[k] = p[k].get_num() * Integer(common / p[k].get_den());
-  }
-  return whole;
-}
 
 /// Which way points of one plane turn, seen from the side that its normal points to. Doubles tell it but for points
 /// that are nearly in line.
@@ -49,6 +34,18 @@ class Turns {
   int of(std::size_t a, std::size_t b, std::size_t c) const {
     const int sign = seen_along_the_axis(a, b, c);
     return is_turned_ ? -sign : sign;
+  }
+  /// Whether a loop of points, each of which turns to the same side, goes around once: of the edges' directions one
+  /// half of all is left once and entered once.
+  bool go_around_once(const std::vector<std::size_t>& loop) const {
+    const auto is_upward = [&](std::size_t i) {
+      const Flat_point<Integer>&from = exact_[loop[i]], &to = exact_[loop[(i + 1) % loop.size()]];
+      return to[1] != from[1] ? to[1] > from[1] : to[0] > from[0];
+    };
+    std::size_t changes = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      if (is_upward(i) != is_upward((i + 1) % loop.size())) ++changes;
+    return changes == 2;
   }
 
  private:
@@ -87,7 +84,7 @@ std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points) 
         "a source has fewer than three points; give the corners of a convex polygon, counterclockwise as seen from the "
         "side it looks to");
   // Newell's normal; then each corner turns left around it, and all turn around once.
-  const std::vector<Whole_point> whole = made_whole(corners);
+  const std::vector<Whole_point> whole = made_whole(corners).points;
   Whole_point normal{0, 0, 0};
   for (std::size_t i = 1; i + 1 < whole.size(); ++i) {
     const Whole_point part = cross(minus(whole[i], whole[0]), minus(whole[i + 1], whole[0]));
@@ -111,12 +108,7 @@ std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points) 
       throw std::invalid_argument(not_convex);
     if (turn > 0) strict.push_back(i);
   }
-  // A star turns left everywhere too, but has corners outside its edges; what goes around twice has corners twice.
-  for (std::size_t i = 0; i < strict.size(); ++i) {
-    const std::size_t from = strict[i], to = strict[(i + 1) % strict.size()];
-    for (const std::size_t p : strict)
-      if (p != from && p != to && turns.of(from, to, p) <= 0) throw std::invalid_argument(not_convex);
-  }
+  if (!turns.go_around_once(strict)) throw std::invalid_argument(not_convex);  // a star turns left everywhere too
   std::vector<Exact_point> kept;
   for (const std::size_t i : strict) kept.push_back(corners[i]);
   return kept;

@@ -28,7 +28,7 @@ struct Reduce_arguments {
 constexpr int timed_out = 124;  // as timeout(1) has it
 
 /// Runs a program with its output thrown away. Returns its exit code, 128 + S where signal S ended it, 124 where it did
-/// not end in time. Errors: std::runtime_error where it cannot be started.
+/// not end in time. Errors: as run_limited().
 int exit_code_of(const std::vector<std::string>& words, double limit) {
   const Process_end end = run_limited(words, {limit, std::numeric_limits<std::uint64_t>::max()}, "/dev/null");
   return end.kind == Process_end::timed_out ? timed_out

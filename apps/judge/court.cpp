@@ -134,8 +134,8 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
   Process_end end;
   try {
     end = run_limited(words, options_.limits, (folder_ / "said").string());
-  } catch (const std::runtime_error& error) {
-    throw Usage_error(std::string("--program: ") + error.what() + "; check the name and PATH");
+  } catch (const Usage_error& error) {
+    throw Usage_error(std::string("--program: ") + error.what());
   }
   judged.seconds = end.seconds;
   judged.bytes = end.bytes;

@@ -5,6 +5,7 @@
 #include <sightline/harness/generate/transform.h>
 #include <sightline/algorithms/weak_visibility/conservative.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/io/input.h>
 #include <sightline/io/read.h>
 #include <sightline/algorithms/weak_visibility/events/events.h>
 
@@ -40,14 +41,10 @@ static void add_source(Sources& sources, const Occluders& occluders, const std::
   sources.points.push_back(points);
 }
 
-static void add_volume(Sources& sources, const Occluders& occluders, const Polygon_soup& soup,
-                       const std::string& option, const Report& progress) {
-  try {
-    for (const std::vector<Exact_point>& part : sources.volumes.emplace_back(soup, progress).surface())
-      add_source(sources, occluders, part);
-  } catch (const std::invalid_argument& error) {
-    throw Usage_error(option + ": " + error.what());
-  }
+/// Errors: std::invalid_argument, as Volume.
+static void add_volume(Sources& sources, const Occluders& occluders, const Polygon_soup& soup, const Report& progress) {
+  for (const std::vector<Exact_point>& part : sources.volumes.emplace_back(soup, progress).surface())
+    add_source(sources, occluders, part);
 }
 
 static void check_face(const Scene& scene, Face_id face, const std::string& option) {
@@ -86,11 +83,20 @@ Sources sources_of(const Source_arguments& arguments, const Common& common, cons
     Common of_file = common;
     of_file.scene = file;
     of_file.flip = false;  // that turns SCENE alone
-    add_volume(sources, occluders, of_file.read(), "--from-volume " + file, progress);
+    const Polygon_soup volume = of_file.read();
+    try {
+      add_volume(sources, occluders, volume, progress);
+    } catch (const std::invalid_argument& error) {
+      throw Input_error::of_file(file, error.what());
+    }
   }
   if (!arguments.solid.empty()) {
     for (const Face_id face : arguments.solid) check_face(scene, face, "--from-faces");
-    add_volume(sources, occluders, generate::with_faces(soup, arguments.solid), "--from-faces", progress);
+    try {
+      add_volume(sources, occluders, generate::with_faces(soup, arguments.solid), progress);
+    } catch (const std::invalid_argument& error) {
+      throw Usage_error(std::string("--from-faces: ") + error.what());
+    }
   }
   return sources;
 }

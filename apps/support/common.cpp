@@ -79,9 +79,7 @@ void Common::add_to(Command of) {
   of.add_flag("--flip", flip,
               "turn the scene round: all corners backwards, so that backs become fronts. For files whose faces run "
               "clockwise as seen from their front; `verify` takes it too, for what was made with it");
-  of.add_option("--threads", threads,
-                "threads; 0: one for each processor. The output does not depend on it, but for the predicates that "
-                "`see` counts")
+  of.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")
       .check(range(0, 1024))
       .show_default();
   of.add_option("--seed", seed, "of random choices").check(whole_number()).show_default();

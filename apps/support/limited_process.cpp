@@ -2,6 +2,8 @@
 
 #include "limited_process.h"
 
+#include "options.h"
+
 #include <sightline/harness/compare/process_memory.h>
 #include <sightline/kernel/time_limit.h>
 
@@ -227,7 +229,7 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
   if (read(from.number, &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
     waitpid(child, nullptr, 0);
     running_group = 0;
-    throw std::runtime_error("'" + words[0] + "' cannot be started: " + std::strerror(error));
+    throw Usage_error("'" + words[0] + "' cannot be started: " + std::strerror(error) + "; check the name and PATH");
   }
 
   // 2. Wait for its end.

@@ -36,8 +36,8 @@ std::vector<std::string> split_words(const std::string& command);
 std::string shell_word(const std::string& text);
 
 /// Runs a program (found along PATH) without input, what it prints into a file, and waits for its end, or ends it and
-/// all that it started. It cannot write files beyond 256 MiB, nor leave a core. Errors: std::runtime_error where it
-/// cannot be started, saying why.
+/// all that it started. It cannot write files beyond 256 MiB, nor leave a core. Errors: Usage_error where it cannot be
+/// started, saying why; std::runtime_error where there can be no process.
 Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits, const std::string& output);
 
 /// Does work in a copy of this process, within limits beyond the memory that this one has, and writes what it returns

@@ -142,7 +142,8 @@ Option add_shade_option(Command command, std::string& shade) {
 void View_arguments::add_to(Command command, const std::string& usual) {
   command.add_option("--look", look,
                      "direction X,Y,Z of the picture; by default to the middle of what there is to see");
-  command.add_option("--up", up, "up direction X,Y,Z of the picture (0,0,1)");
+  command.add_option("--up", up,
+                     "up direction X,Y,Z of the picture (0,0,1); where the look goes along it, 0,1,0 or 1,0,0");
   command
       .add_option("--field", field,
                   "width of the picture's view in degrees; by default so wide that what there is to see fills the "

@@ -339,8 +339,8 @@ TEST_F(Fuzz, reduce_says_what_is_missing) {
     EXPECT_TRUE(r.one_line_of_error()) << r;
   }
   const Outcome r = run({"reduce", scene, "--out", path("b.off").string(), "--", "no-such-program", "{}"});
-  EXPECT_EQ(r.code, bad_input) << r;
-  EXPECT_NE(r.err.find("no-such-program"), std::string::npos) << r;
+  EXPECT_EQ(r.code, usage) << r;
+  EXPECT_NE(r.err.find("'no-such-program' cannot be started"), std::string::npos) << r;
 }
 
 }  // namespace program

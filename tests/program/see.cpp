@@ -161,6 +161,19 @@ TEST_F(See, is_the_same_with_any_number_of_threads_and_in_every_exact_kernel) {
     EXPECT_GT(see({city, "--eye", "0,0,1", "--kernel", kernel})["result"]["visible"].size(), 0u) << kernel;
 }
 
+TEST_F(See, counts_the_same_with_any_number_of_threads_where_faces_lie_in_one_plane) {
+  for (const char* family : {"coplanar_overlap", "duplicates"}) {
+    const std::string scene = path(std::string(family) + ".qoff").string();
+    ASSERT_EQ(run({"generate", family, "--size", "60", "--seed", "2", "--out", scene}).code, done);
+    const Json one = see({scene, "--eye", "1,2,30", "--threads", "1"});
+    for (const char* threads : {"2", "5"}) {
+      const Json many = see({scene, "--eye", "1,2,30", "--threads", threads});
+      EXPECT_EQ(many["result"], one["result"]) << family;
+      EXPECT_EQ(many["counters"], one["counters"]) << family;
+    }
+  }
+}
+
 TEST_F(See, shows_the_same_by_each_exact_method_in_parts_of_its_own) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string();
   const auto is_the_same = [](Json a, Json b) {

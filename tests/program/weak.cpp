@@ -415,7 +415,8 @@ TEST_F(Weak, refuses_volumes_that_are_none) {
   };
   refused({"--from-faces", "0,1,2,3,4"}, "do not close up");
   refused({"--from-faces", "0,1,77"}, "no such face");
-  refused({"--from-volume", file("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")}, "do not close up");
+  refused({"--from-volume", file("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")},
+          "open.off: the faces of a volume do not close up", bad_input);
   refused({"--from-volume", path("nothing.off").string()}, "nothing.off", bad_input);
   refused({"--from-volume", ""}, "--from-volume");
 }
