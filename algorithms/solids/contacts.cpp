@@ -8,6 +8,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 namespace sightline {
 
@@ -185,11 +186,15 @@ class Pair_filter {
     return which;
   }
 
+  /// The corners of the piece that was asked for last: one of many corners is compared with many in turn.
   struct Outline_room {
+    std::optional<std::uint32_t> piece;
     std::vector<std::uint32_t> point;
     std::vector<std::array<double, 3>> at;
   };
   Near_outline outline_of(std::uint32_t piece, Outline_room& room) const {
+    if (room.piece == piece) return {room.point, room.at};
+    room.piece = piece;
     const Grid_points& grid = operands_.points();
     room.point.clear();
     room.at.clear();

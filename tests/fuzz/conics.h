@@ -118,6 +118,19 @@ inline void check_meeting(const Conic& c, Bytes& from) {
   require(!may_meet(beside, box), "a curve far from a rectangle does not meet it");
 }
 
+/// Areas below its arcs are known closely, and more closely than in two parts.
+inline void check_areas(const Conic& c) {
+  constexpr double close = 0x1p-14, far = 4;  // of a square of 64; at upright tangents 2^-21 of it is left
+  const std::array<Plane_curve, 1> curves{Plane_curve{c}};
+  const Curve_arrangement found(curves, {-far, far, -far, far});
+  for (std::size_t s = 0; s < found.slabs().size(); ++s)
+    for (const Curve_arrangement::Arc& arc : found.slabs()[s].arcs) {
+      const Bounded area = found.area_below(arc, s), coarse = found.area_below(arc, s, 1);
+      require(area.low <= coarse.high && coarse.low <= area.high, "bounds of an area have a number in common");
+      require(area.high - area.low < close, "an area below an arc is known closely");
+    }
+}
+
 /// y^2 + 2^k y + n x = 2^(k - 1), or turned over: hardly bent in the square, where its bounds are as near as for a
 /// line.
 inline void try_flat_conic(Bytes& from) {
@@ -156,6 +169,7 @@ inline void conics(std::string_view bytes) {
   const auto number = [&]() -> Rational { return Rational(from.integer(3)) / (1 + static_cast<long>(from.below(4))); };
   for (const Conic& c : found) {
     check_meeting(c, from);
+    if (from.below(32) == 0) check_areas(c);  // which takes as long as a hundred others
     const Plane_curve curve{c};
     const Rational x = number(), y = number();
     const auto value = [&](const Rational& at) {
