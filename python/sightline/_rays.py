@@ -1,5 +1,6 @@
 """Rays, and what they meet."""
 
+import operator
 from fractions import Fraction
 from numbers import Integral
 from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
@@ -122,6 +123,7 @@ class Rays(Sequence[List[Hit]]):
         """The exact hits of a ray: all, if all were asked for, else those where it first meets something."""
         if isinstance(place, slice):
             return [self[i] for i in range(*place.indices(len(self)))]
+        place = operator.index(place)
         if not -len(self) <= place < len(self):
             raise IndexError(f"ray {place} is not there: there are {len(self)}")
         i = place % len(self)
