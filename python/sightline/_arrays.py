@@ -76,7 +76,8 @@ def fraction(number: Any) -> Fraction:
     """A number as it is."""
     if not isinstance(number, (str, Fraction)) and hasattr(number, "as_integer_ratio"):
         return Fraction(*number.as_integer_ratio())  # numpy's floats, too
-    return Fraction(number)
+    # Of numpy's integers Fraction keeps numerators that overflow.
+    return Fraction(operator.index(number) if hasattr(number, "__index__") else number)
 
 
 def exact_point(point: Any) -> Tuple[Fraction, ...]:
