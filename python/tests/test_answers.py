@@ -433,23 +433,27 @@ def test_interrupts_end_a_question_at_once(name):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
-def test_interrupts_end_the_reading_of_objects():
+@pytest.mark.parametrize("name", ["Scene", "trace"])
+def test_interrupts_end_the_reading_of_objects(name):
     class Enough(Exception):
         pass
 
     def enough(*_):
         raise Enough
 
-    V, F = np.full((200_000, 3), 7, dtype=object), np.empty((0, 3), np.int64)
+    def ask():
+        V, F = np.full((200_000, 3), 7, dtype=object), np.empty((0, 3), np.int64)
+        return sightline.Scene(V, F) if name == "Scene" else sightline.Scene([], []).trace(V[:50_000], V[0], all=True)
+
     start = time.process_time()
-    sightline.Scene(V, F)
+    ask()
     whole = time.process_time() - start
     before = signal.signal(signal.SIGPROF, enough)
     try:
         start = time.process_time()
         signal.setitimer(signal.ITIMER_PROF, whole / 8)  # of processor time
         with pytest.raises(Enough):
-            sightline.Scene(V, F)
+            ask()
         assert time.process_time() - start < whole / 2
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
