@@ -160,6 +160,7 @@ struct Level_cells::Space {
     bsp.candidates = options.candidates;
     bsp.seed = options.seed;
     bsp.threads = options.threads;
+    if (options.progress) bsp.progress = options.progress;
     return bsp;
   }
 
