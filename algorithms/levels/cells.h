@@ -71,7 +71,7 @@ struct Cell_options {
   std::uint64_t seed = 1;
   int threads = 0;       ///< 0: as many as there are processors
   Space_tree tree = {};  ///< each cell is within one of its leaves. Pre: no node is below itself
-  /// Fragments of the tree, called from any thread, and then its nodes.
+  /// Nodes of the given tree, fragments of the whole one, called from any thread, and then its nodes.
   std::function<void(std::size_t done, std::size_t all)> progress = {};
 };
 

@@ -49,6 +49,15 @@ TEST(Level_cells, tell_of_their_tree_and_then_of_its_nodes) {
   EXPECT_GT(calls, nodes);  // each once, after what is told of the tree
   options.progress = [](std::size_t, std::size_t) { throw std::domain_error("enough"); };
   EXPECT_THROW(Level_cells(soup, options), std::domain_error);
+  // Of boxes that are given first.
+  options.tree = even_boxes(soup, {3, 2, 4});
+  std::size_t of_boxes = 0;
+  options.progress = [&](std::size_t, std::size_t all) {
+    of_boxes = all;
+    throw std::domain_error("enough");
+  };
+  EXPECT_THROW(Level_cells(soup, options), std::domain_error);
+  EXPECT_EQ(of_boxes, options.tree.nodes.size());
 }
 
 TEST(Level_cells, are_within_even_boxes) {
