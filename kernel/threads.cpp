@@ -8,7 +8,10 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <array>
+#include <atomic>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -28,14 +31,50 @@ void require_whole(tbb::task_group_context& context) {
   if (context.is_group_execution_cancelled()) throw Given_up();
 }
 
+/// What tasks of so many threads run in.
+struct Arena {
+  int threads;
+  tbb::task_arena tasks;
+};
+
+/// Arenas in which nothing runs, to be used again: oneTBB 2021.8 never gives back the memory of one that a second
+/// thread was in, some 7 kB. Without locks, so that a process that is forked meanwhile has them too.
+class Idle_arenas {
+ public:
+  std::unique_ptr<Arena> take(int threads) {
+    for (std::atomic<Arena*>& place : places_) {
+      std::unique_ptr<Arena> arena(place.exchange(nullptr));
+      if (arena && arena->threads == threads) return arena;
+      give(std::move(arena));
+    }
+    return std::unique_ptr<Arena>(
+        new Arena{threads, tbb::task_arena(threads > 0 ? threads : tbb::task_arena::automatic)});
+  }
+  /// Where all places are taken, it ends.
+  void give(std::unique_ptr<Arena> arena) {
+    for (std::atomic<Arena*>& place : places_) {
+      Arena* nothing = nullptr;
+      if (arena && place.compare_exchange_strong(nothing, arena.get())) static_cast<void>(arena.release());
+    }
+  }
+
+ private:
+  std::array<std::atomic<Arena*>, 64> places_{};
+};
+
+constinit Idle_arenas idle_arenas;  // never destroyed: threads may work until the process ends
+
 }  // namespace
 
 void run_with_threads(int threads, const std::function<void()>& work) {
   std::optional<tbb::global_control> more;
   if (threads > tbb::info::default_concurrency())
     more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { work(); });
+  struct Borrowed {
+    std::unique_ptr<Arena> arena;
+    ~Borrowed() { idle_arenas.give(std::move(arena)); }
+  } borrowed{idle_arenas.take(threads)};
+  borrowed.arena->tasks.execute([&] { work(); });
 }
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {

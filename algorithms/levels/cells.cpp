@@ -33,8 +33,13 @@ class Given_tree {
   std::vector<std::array<std::uint32_t, 2>> leaves;  // by node: in front and behind, where there is no node
   std::uint32_t root_leaf = 0;                       // where there is no node at all
 
-  Given_tree(Scene& scene, const Box_planes& box, const Space_tree& tree) : box_(box) {
-    for (const Space_tree::Node& node : tree.nodes) planes_.push_back(scene.add_plane(on_grid(scene, node.plane)));
+  Given_tree(Scene& scene, const Box_planes& box, const Space_tree& tree,
+             const std::function<void(std::size_t, std::size_t)>& progress)
+      : box_(box) {
+    for (const Space_tree::Node& node : tree.nodes) {
+      if (progress) progress(0, tree.nodes.size());
+      planes_.push_back(scene.add_plane(on_grid(scene, node.plane)));
+    }
     if (tree.root < 0) {
       root_leaf = static_cast<std::uint32_t>(-1 - tree.root);
       return;
@@ -71,6 +76,7 @@ class Given_tree {
       const Plane plane = planes_[static_cast<std::size_t>(job.number)];
       nodes.push_back({plane});
       leaves.push_back({});
+      if (progress) progress(nodes.size(), tree.nodes.size());
       for (const bool in_front : {false, true}) {
         Waiting& below =
             stack.emplace_back(Waiting{tree.nodes[static_cast<std::size_t>(job.number)].children[in_front ? 0 : 1],
@@ -132,7 +138,7 @@ struct Level_cells::Space {
   Space(const Polygon_soup& soup, const Cell_options& options)
       : scene(with_points(soup, options.tree.corners)),
         box(box_about(scene)),
-        given(scene, box, options.tree),
+        given(scene, box, options.tree, options.progress),
         traits(scene),
         tree(build_bsp(traits, bsp_options(options))) {}
 
@@ -160,6 +166,7 @@ struct Level_cells::Space {
     bsp.candidates = options.candidates;
     bsp.seed = options.seed;
     bsp.threads = options.threads;
+    if (options.progress) bsp.progress = options.progress;
     return bsp;
   }
 

@@ -126,6 +126,10 @@ struct See_trial : Trial {
     for (const double plane : {arguments.near, arguments.far})  // 0: automatic
       if (plane != 0 && (static_cast<float>(plane) == 0 || std::isinf(static_cast<float>(plane))))
         throw Usage_error(fmt::format("--near and --far are floats, and {} is none", plane));
+    if (arguments.near != 0 && arguments.far != 0 &&
+        !(static_cast<float>(arguments.near) < static_cast<float>(arguments.far)))
+      throw Usage_error(
+          fmt::format("--near {} is not before --far {}: give a smaller one", arguments.near, arguments.far));
     for (const std::uint32_t size : arguments.sizes)
       for (const int bits : arguments.bits) {
         const Depth_buffer_options pixels{size, bits, static_cast<float>(arguments.near),

@@ -210,7 +210,8 @@ Json render_result() {
                  {"right", tuple_of(type("number"), 3)},
                  {"up", tuple_of(type("number"), 3)},
                  {"width", count},
-                 {"height", count}});
+                 {"height", count},
+                 {"faces?", list_of(object({{"face", a_face()}, {"pixels", count}}))}});
 }
 
 Json boolean_result() {

@@ -83,7 +83,7 @@ void Common::add_to(Command of) {
       .check(range(0, 1024))
       .show_default();
   of.add_option("--seed", seed, "of random choices").check(whole_number()).show_default();
-  of.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")
+  of.add_option("--budget", budget, "seconds, from when SCENE is ready; 0: no limit. Exit code 4 where they run out")
       .check(not_negative() & finite_number())
       .show_default();
 }

@@ -50,13 +50,15 @@ bool add_points(Polygon_soup& soup, const py::array& points) {
 void add_objects(Polygon_soup& soup, const py::array& points, bool any_denominator) {
   Common_denominator common;
   const auto at = py::reinterpret_borrow<py::array_t<PyObject*>>(points).unchecked<2>();
-  for (py::ssize_t i = 0; i < at.shape(0); ++i)
+  for (py::ssize_t i = 0; i < at.shape(0); ++i) {
+    if (i % 1024 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
     for (py::ssize_t k = 0; k < 3; ++k) {
       const Rational coordinate = rational_of(at(i, k), place("V", i, k));
       const std::string why = any_denominator ? "" : common.why_not(coordinate, "give floats, or round them");
       if (!why.empty()) throw py::value_error(place("V", i, k) + ": " + why);
       soup.coordinates.push(coordinate);
     }
+  }
 }
 
 // ---- Faces

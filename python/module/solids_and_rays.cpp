@@ -81,6 +81,7 @@ Exact_hits traced(const Model& model, const py::object& origins, const py::objec
                   const Question& question) {
   Exact_hits found;
   for (const py::handle pair : py::module_::import("builtins").attr("zip")(origins, directions)) {
+    if (found.rays.size() % 1024 == 0 && PyErr_CheckSignals() != 0) throw py::error_already_set();
     const std::string name = "ray " + std::to_string(found.rays.size());
     const auto both = py::reinterpret_borrow<py::tuple>(pair);
     found.rays.push_back({point_of(both[0], name + ": origin"), point_of(both[1], name + ": direction")});

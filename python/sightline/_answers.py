@@ -1,6 +1,7 @@
 """What questions answer: arrays of face ids, parts with exact corners, certificates."""
 
 import json
+import operator
 import os
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
@@ -106,6 +107,7 @@ class Parts(Sequence[Part]):
     def __getitem__(self, place: Union[int, slice]) -> Union[Part, List[Part]]:
         if isinstance(place, slice):
             return [Part(self._parts, i) for i in range(*place.indices(len(self)))]
+        place = operator.index(place)
         if not -len(self) <= place < len(self):
             raise IndexError(f"part {place} is not there: there are {len(self)}")
         return Part(self._parts, place % len(self))

@@ -39,14 +39,26 @@ def points(V: Any) -> NDArray[Any]:
     raise TypeError(f"V has the type {array.dtype}; give floats, integers, or objects such as Fraction")
 
 
+def _int64(numbers: List[Any], name: str) -> NDArray[np.int64]:
+    """Integers of any kind. Errors: TypeError where one is none, a boolean too; IndexError where one names nothing."""
+    for x in numbers:
+        if isinstance(x, (bool, np.bool_)) or not hasattr(x, "__index__"):
+            raise TypeError(f"{name} has {x!r}, a {type(x).__name__}, in it; give integers, counted from 0")
+    try:
+        return np.array([operator.index(x) for x in numbers], dtype=np.int64)
+    except OverflowError:
+        largest = max((operator.index(x) for x in numbers), key=abs)
+        raise IndexError(f"{name} has {largest} in it, and nothing has that many points; count from 0") from None
+
+
 def _whole(numbers: NDArray[Any], name: str) -> NDArray[Any]:
     """Integers of a type that C++ reads."""
     if numbers.size == 0:
         return numbers.astype(np.int64)
     if numbers.dtype == object:
-        return np.array([operator.index(x) for x in numbers.flat], dtype=np.int64).reshape(numbers.shape)
+        return _int64(list(numbers.flat), name).reshape(numbers.shape)
     if numbers.dtype.kind not in "iu":
-        raise TypeError(f"{name} has the type {numbers.dtype}; corners are integers, counted from 0")
+        raise TypeError(f"{name} has the type {numbers.dtype}; give integers, counted from 0")
     if numbers.dtype in (np.int64, np.int32, np.uint32, np.uint64) and numbers.dtype.isnative:
         return numbers
     return numbers.astype(np.uint64 if numbers.dtype.kind == "u" else np.int64)
@@ -64,7 +76,8 @@ def fraction(number: Any) -> Fraction:
     """A number as it is."""
     if not isinstance(number, (str, Fraction)) and hasattr(number, "as_integer_ratio"):
         return Fraction(*number.as_integer_ratio())  # numpy's floats, too
-    return Fraction(number)
+    # Of numpy's integers Fraction keeps numerators that overflow.
+    return Fraction(operator.index(number) if hasattr(number, "__index__") else number)
 
 
 def exact_point(point: Any) -> Tuple[Fraction, ...]:
@@ -95,25 +108,38 @@ def _starts(numbers: Any) -> NDArray[np.int64]:
     return np.ascontiguousarray(numbers, dtype=np.int64)
 
 
+def _given_starts(numbers: Any, name: str) -> NDArray[np.int64]:
+    """The same, as it was given."""
+    try:
+        row = _whole(np.asarray(numbers), name)
+    except IndexError as error:
+        raise ValueError(str(error)) from None
+    if row.ndim != 1:
+        raise ValueError(f"{name} has the shape {row.shape}; give one row")
+    return _starts(row)
+
+
 _none = _starts([])
 
 
 def _of_lists(F: Sequence[Any]) -> Faces:
     """Faces of corners, or of loops of corners."""
-    corners: List[int] = []
+    corners: List[Any] = []
     loops, faces = [0], [0]
     for face in F:
-        nested = len(face) > 0 and not is_index(face[0])
+        nested = len(face) > 0 and hasattr(face[0], "__len__")
         for loop in face if nested else [face]:
-            corners.extend(operator.index(c) for c in loop)
+            corners.extend(loop)
             loops.append(len(corners))
         faces.append(len(loops) - 1)
-    return np.array(corners, dtype=np.int64), _starts(loops), _starts(faces)
+    return _int64(corners, "F"), _starts(loops), _starts(faces)
 
 
 def faces(F: Any, offsets: Any, face_offsets: Any) -> Faces:
     """F as (m, k), or one row of corners with where loops and faces begin."""
     check_unmasked(F, "F")
+    if isinstance(F, str) or not hasattr(F, "__len__"):
+        raise TypeError(f"F is {F!r}; give faces as (m, 3), (m, 4), lists of corners, or flat with offsets")
     if not isinstance(F, np.ndarray):
         if offsets is None and len(F) > 0 and not is_index(F[0]):
             return _of_lists(F)
@@ -129,10 +155,10 @@ def faces(F: Any, offsets: Any, face_offsets: Any) -> Faces:
         return corners.reshape(0, 3), _none, _none
     if offsets is None:
         raise ValueError("F is flat; say by offsets where its loops begin, and where the last ends")
-    loops = _starts(_whole(np.asarray(offsets), "offsets"))
+    loops = _given_starts(offsets, "offsets")
     if face_offsets is None:
         return corners, loops, np.arange(len(loops))
-    return corners, loops, _starts(_whole(np.asarray(face_offsets), "face_offsets"))
+    return corners, loops, _given_starts(face_offsets, "face_offsets")
 
 
 def _of_padded(padded: NDArray[Any]) -> Faces:

@@ -136,9 +136,10 @@ class Cells(Sequence[Cell]):
     def __getitem__(self, place: Union[int, slice]) -> Union[Cell, List[Cell]]:
         if isinstance(place, slice):
             return [Cell(self, i) for i in range(*place.indices(len(self)))]
+        place = operator.index(place)
         if not -len(self) <= place < len(self):
             raise IndexError(f"cell {place} is not there: there are {len(self)}")
-        return Cell(self, int(place) % len(self))
+        return Cell(self, place % len(self))
 
     def __iter__(self) -> Iterator[Cell]:
         return (Cell(self, i) for i in range(len(self)))

@@ -2,13 +2,14 @@
 
 import math
 import operator
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _sightline
-from ._arrays import exact_point, fraction
+from ._arrays import check_unmasked, exact_point, fraction
 from ._progress import Progress, followed
 
 if TYPE_CHECKING:
@@ -19,12 +20,17 @@ Axes = Tuple[Doubles, Doubles, Doubles]
 
 
 def _doubles(direction: Any, what: str) -> Doubles:
-    doubles = np.asarray(direction, dtype=float)
-    if doubles.shape != (3,) or not np.all(np.isfinite(doubles)):
+    check_unmasked(direction, what)
+    try:
+        exact = exact_point(direction)
+    except (ArithmeticError, ValueError):  # of infinity, nan, a denominator 0, words
+        exact = ()
+    if len(exact) != 3:
         raise ValueError(f"{what} is {direction!r}; give a direction of three finite numbers")
-    largest = np.max(np.abs(doubles))
+    largest = max(map(abs, exact))
     # Neither huge nor tiny, so that its length can be told; by a power of two, so that it is the same direction.
-    return np.ldexp(doubles, -int(np.frexp(largest)[1])) if largest > 0 else doubles
+    power = largest.denominator.bit_length() - largest.numerator.bit_length()
+    return np.array([float(x * Fraction(2) ** power) for x in exact])
 
 
 def middle_from(eye: Any, box: Any) -> Tuple[float, ...]:
@@ -55,7 +61,8 @@ def axes_of(look: Any, up: Any, field: float, size: Tuple[int, int]) -> Axes:
 
 def size_of(size: Any) -> Tuple[int, int]:
     """Width and height. Errors: ValueError."""
-    width, height = (operator.index(n) for n in size)
+    numbers = tuple(operator.index(n) for n in size)
+    width, height = numbers if len(numbers) == 2 else (0, 0)
     if not (1 <= width <= 2**20 and 1 <= height <= 2**20 and width * height <= 2**28):
         raise ValueError(f"size is {size!r}; give width and height from 1, with at most 2**28 pixels")
     return width, height
@@ -74,7 +81,8 @@ class Picture:
         #: (height, width): the face that an exact ray through each pixel's centre meets first, -1 where there is none
         self.faces: NDArray[np.int64] = columns[0]
         self.sides: NDArray[np.int8] = columns[1]  #: 1 where it is seen from its front, -1 from behind, 0: nothing
-        self.tied: NDArray[np.bool_] = columns[2]  #: where others are met there too, or the ray runs through its border
+        #: where others are met there too, or the ray runs through the border of one of the face's convex parts
+        self.tied: NDArray[np.bool_] = columns[2]
 
     @property
     def rays(self) -> Doubles:
@@ -96,6 +104,9 @@ class Picture:
         """
         from ._scene import _question
 
+        check_unmasked(values, "values")
+        if np.iscomplexobj(values):
+            raise TypeError("values are complex; give real numbers")
         colours = np.ascontiguousarray(values, dtype=float)
         if colours.shape != (self.scene.face_count, 3) or not np.all(np.isfinite(colours)):
             raise ValueError(f"values: give finite numbers, ({self.scene.face_count}, 3), three for each face")

@@ -1,5 +1,6 @@
 """Rays, and what they meet."""
 
+import operator
 from fractions import Fraction
 from numbers import Integral
 from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
@@ -55,6 +56,9 @@ def pairs(origins: Any, directions: Any) -> Tuple[NDArray[Any], NDArray[Any]]:
 
 def _doubles(numbers: NDArray[Any]) -> Optional[Doubles]:
     """The same numbers as doubles, where they are doubles."""
+    if len(numbers) > 1 and numbers.strides[0] == 0:  # one point for all rays
+        one = _doubles(numbers[:1])
+        return None if one is None else np.ascontiguousarray(np.broadcast_to(one, numbers.shape))
     if numbers.dtype.kind == "f" and numbers.dtype.itemsize <= 8:
         return np.ascontiguousarray(numbers, dtype=np.float64)
     if numbers.dtype.kind in "iu" and numbers.dtype.itemsize <= 4:
@@ -75,6 +79,8 @@ def _doubles(numbers: NDArray[Any]) -> Optional[Doubles]:
 
 
 def _rounded(numbers: NDArray[Any]) -> Doubles:
+    if len(numbers) > 1 and numbers.strides[0] == 0:
+        return np.broadcast_to(_rounded(numbers[:1]), numbers.shape)
     if numbers.dtype != object:
         return numbers.astype(np.float64)
     return np.array([float(Fraction(x) if isinstance(x, str) else x) for x in numbers.flat]).reshape(numbers.shape)
@@ -122,6 +128,7 @@ class Rays(Sequence[List[Hit]]):
         """The exact hits of a ray: all, if all were asked for, else those where it first meets something."""
         if isinstance(place, slice):
             return [self[i] for i in range(*place.indices(len(self)))]
+        place = operator.index(place)
         if not -len(self) <= place < len(self):
             raise IndexError(f"ray {place} is not there: there are {len(self)}")
         i = place % len(self)

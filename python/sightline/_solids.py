@@ -76,6 +76,9 @@ def boolean(
     >>> boolean("union", cube, other).certificate().verify().accepted
     True
     """
+    for place, solid in enumerate(solids):
+        if not isinstance(solid, Scene):
+            raise TypeError(f"solid {place} is a {type(solid).__name__}; give each as a Scene")
     with followed(progress, operation) as told:
         question = _question(threads, told, budget)
         found = _sightline.combine(operation, [solid._model for solid in solids], inside, question)

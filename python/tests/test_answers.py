@@ -433,6 +433,34 @@ def test_interrupts_end_a_question_at_once(name):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.parametrize("name", ["Scene", "trace"])
+def test_interrupts_end_the_reading_of_objects(name):
+    class Enough(Exception):
+        pass
+
+    def enough(*_):
+        raise Enough
+
+    def ask():
+        V, F = np.full((200_000, 3), 7, dtype=object), np.empty((0, 3), np.int64)
+        return sightline.Scene(V, F) if name == "Scene" else sightline.Scene([], []).trace(V[:50_000], V[0], all=True)
+
+    start = time.process_time()
+    ask()
+    whole = time.process_time() - start
+    before = signal.signal(signal.SIGPROF, enough)
+    try:
+        start = time.process_time()
+        signal.setitimer(signal.ITIMER_PROF, whole / 8)  # of processor time
+        with pytest.raises(Enough):
+            ask()
+        assert time.process_time() - start < whole / 2
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_interrupts_end_writing_and_leave_the_old_file(tmp_path):
     n = 250
     x, y = np.meshgrid(np.arange(n) / 7, np.arange(n) / 7)  # exact decimals of some fifty digits

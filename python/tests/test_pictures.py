@@ -1,5 +1,6 @@
 """Images, drawings and partitions, each held to another question."""
 
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -39,6 +40,24 @@ def test_a_ray_through_a_border_is_a_tie():
     assert picture.faces[1, 1] == 0 and not picture.tied[1, 1]
     picture = lid.render((2, 0, 3), look=(0, 0, -1), up=(0, 1, 0), size=(3, 3))
     assert picture.faces[1, 1] == 0 and picture.tied[1, 1]
+    dart = Scene([[0, 0, 0], [3, 0, 0], [1, 1, 0], [0, 3, 0]], [[0, 1, 2, 3]])  # cut from (0, 0, 0) to (1, 1, 0)
+    picture = dart.render(("1/2", "1/2", 3), look=(0, 0, -1), up=(0, 1, 0), size=(3, 3))
+    assert picture.faces[1, 1] == 0 and picture.tied[1, 1]
+
+
+def test_directions_are_any_numbers():
+    def axes(look, up=(0, 0, 1)):
+        picture = lid.render((1, 1, 5), look=look, up=up, size=(4, 4))
+        return [axis.tolist() for axis in (picture.look, picture.right, picture.up)]
+
+    for look in ("1/2,1,-3", ["1/2", "1", "-3"], np.array([0.5, 1, -3], np.float32), [Fraction(1, 2), 1, -3],
+                 [2**1400, 2 * 2**1400, -6 * 2**1400], [Fraction(1, 2**1400) * k for k in (1, 2, -6)],
+                 np.array([1, 2, -6], np.int8)):  # fmt: skip
+        assert axes(look) == axes((0.5, 1, -3))
+    for eye in ((2**62, 5, -(2**62)), (np.int64(2**62), np.int8(5), np.int64(-(2**62)))):
+        look = lid.render(eye, size=(4, 4)).look
+        assert look == pytest.approx([-math.sqrt(0.5), 0, math.sqrt(0.5)], abs=1e-9)
+    assert axes((1, 0, 0), "0,0,1") == axes((1, 0, 0), (0, 0, 5e-324)) == axes((1, 0, 0))
 
 
 def test_means_are_what_many_centres_come_to():
@@ -55,11 +74,20 @@ def test_means_are_what_many_centres_come_to():
 
 def test_pictures_say_what_is_wrong_with_their_view():
     for wrong in ({"field": 180}, {"field": 0}, {"size": (0, 5)}, {"size": (2**20, 2**20)}, {"look": (0, 0, 0)},
-                  {"look": (0, 0, -1)}, {"look": (0, 1)}, {"look": (0, float("nan"), 0)}):  # fmt: skip
+                  {"look": (0, 0, -1)}, {"look": (0, 1)}, {"look": (0, float("nan"), 0)}, {"look": "a,b,c"},
+                  {"look": (0, float("inf"), 0)}, {"look": ("1/0", 1, 0)}, {"size": (4, 4, 4)},
+                  {"look": np.ma.masked_array([1, 0, 0], [1, 0, 0])}):  # fmt: skip
         with pytest.raises(ValueError, match="; give|along"):
             lid.render((1, 1, 5), **{"size": (4, 4), **wrong})
+    with pytest.raises(TypeError):
+        lid.render((1, 1, 5), look=np.array([1j, 0, 1]), size=(4, 4))
+    picture = lid.render((1, 1, 5), size=(4, 4))
     with pytest.raises(ValueError, match="three for each face"):
-        lid.render((1, 1, 5), size=(4, 4)).means([[1, 0, 0]])
+        picture.means([[1, 0, 0]])
+    with pytest.raises(ValueError, match="values has numbers that are masked"):
+        picture.means(np.ma.masked_array(np.ones((2, 3)), np.eye(2, 3)))
+    with pytest.raises(TypeError, match="values are complex"):
+        picture.means(np.ones((2, 3)) * 1j)
     with pytest.raises(sightline.OutOfBudget):
         town.render((7, -6, 7), size=(900, 900), budget=1e-9)
 
@@ -143,6 +171,8 @@ def test_set_operations_are_proved():
     assert not taken.verify().accepted
     with pytest.raises(ValueError):
         sightline.SolidCertificate(less.scene, (cube, other), "{}").verify()
+    with pytest.raises(TypeError, match="solid 1 is a int; give each as a Scene"):
+        sightline.boolean("union", cube, 5)
 
 
 @pytest.mark.parametrize("scale", [Fraction(10) ** 200, Fraction(1, 10**200), Fraction(10) ** 400, Fraction(1, 10**400)])

@@ -2,6 +2,7 @@
 
 import itertools
 import random
+import time
 from fractions import Fraction
 
 import numpy as np
@@ -104,6 +105,17 @@ def test_rays_of_all_kinds():
             square.trace(origins, directions)
     with pytest.raises(IndexError):
         down[2]
+
+
+def test_one_direction_for_all_rays_is_read_once():
+    scene, origins = sightline.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), np.random.rand(200_000, 3)
+
+    def seconds(direction):
+        start = time.process_time()
+        assert (scene.trace(origins, direction, threads=1).points >= 0).any()
+        return time.process_time() - start
+
+    assert seconds((0, 0, -1.0)) < 2 * seconds(np.tile([0, 0, -1.0], (len(origins), 1)))
 
 
 def test_whole_numbers_that_no_double_holds_are_not_rounded():

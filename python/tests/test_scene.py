@@ -112,11 +112,18 @@ def test_polygons_and_holes():
         (square, [[0, 1, 4]], IndexError, "face 0 has the corner 4, and there are 4 points"),
         (square, [[0, 1, 2], [0, -1, 2]], IndexError, "face 1 has the corner -1"),
         (square, np.array([[0, 1, 2**63]], np.uint64), IndexError, "corner 9223372036854775808,"),
-        (square, [[0.0, 1.0, 2.0]], TypeError, "float"),
+        (square, [[0, 1, 2**63]], IndexError, "F has 9223372036854775808 in it"),
+        (square, np.array([[0, 1, -(2**70)]], object), IndexError, "F has -1180591620717411303424 in it"),
+        (square, [[0.0, 1.0, 2.0]], TypeError, "F has 0.0, a float, in it"),
+        (square, [[0, 1, 2], [0, 1, True]], TypeError, "F has True, a bool, in it"),
+        (square, np.array([[0, 1, True]], object), TypeError, "F has True, a bool, in it"),
+        (square, [[True, 0, 2]], TypeError, "F has True, a bool, in it"),
+        (square, ["012"], TypeError, "F has '0', a str, in it"),
         (square, np.array([[0.0, 1.0, 2.0]]), TypeError, "float64"),
         (square, np.zeros((1, 1, 3), int), ValueError, "shape"),
         (square, np.array([0, 1, 2]), ValueError, "offsets"),
-        (square, 7, TypeError, ""),
+        (square, 7, TypeError, "F is 7; give faces as"),
+        (square, "012", TypeError, "F is '012'; give faces as"),
         (np.ma.masked_array(square, square == 1), [[0, 1, 2]], ValueError, "V has numbers that are masked"),
         (square, np.ma.masked_array([[0, 1, 2, 0]], [[0, 0, 0, 1]]), ValueError, "F has numbers that are masked"),
         ("town.obj", None, TypeError, "sightline.read"),
@@ -138,6 +145,9 @@ def test_what_is_no_scene_is_refused(V, F, error, words):
         ([0, 3], [0, 2], "end with 1"),
         ([0, 3], [0, 2**63 - 1, 1], "after 9223372036854775807"),
         ([0, 2**63 - 1, 3], None, "after 9223372036854775807"),
+        ([0, 2**70], None, "offsets has 1180591620717411303424 in it"),
+        ([[0, 3]], None, r"offsets has the shape \(1, 2\)"),
+        ([0, 3], [[0, 1]], r"face_offsets has the shape \(1, 2\)"),
     ],
 )
 def test_offsets_that_do_not_add_up_are_refused(offsets, face_offsets, words):
@@ -280,3 +290,6 @@ def test_what_is_left_out_is_said():
     assert scene.parts[-1].corners == ((0, 0, 0), (1, 0, 0), (1, 1, 0))
     with pytest.raises(IndexError):
         scene.parts[1]
+    assert scene.parts[np.int8(0)].face == 0
+    with pytest.raises(TypeError, match="cannot be interpreted as an integer"):
+        scene.parts[0.0]

@@ -1,9 +1,11 @@
+#include <sightline/harness/compare/process_memory.h>
 #include <sightline/kernel/threads.h>
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 
@@ -59,6 +61,33 @@ TEST(Threads, what_a_part_throws_comes_out_at_any_depth) {
         [] {});
   };
   for (const int threads : {1, 2, 4}) EXPECT_THROW(run_with_threads(threads, deep), std::range_error);
+}
+
+TEST(Threads, to_ask_for_threads_again_and_again_takes_no_memory) {
+  const auto ask = [](int times) {
+    for (int time = 0; time < times; ++time)
+      run_with_threads(2, [] {
+        parallel_for(64, [](std::size_t) {
+          for (volatile int spin = 0; spin < 500;) spin = spin + 1;  // time for the other thread to come
+        });
+      });
+  };
+  ask(200);
+  const std::uint64_t before = process_memory("self", "VmRSS");
+  if (before == 0) GTEST_SKIP() << "needs /proc";
+  ask(3000);
+  // oneTBB 2021.8 keeps 7 kB of each arena that two threads were in, which would be 20 MB.
+  EXPECT_LT(process_memory("self", "VmRSS"), before + (std::size_t{4} << 20));
+}
+
+TEST(Threads, of_any_number_are_there_at_once_and_within_each_other) {
+  std::atomic<int> done{0};
+  run_with_threads(3, [&] {
+    parallel_for(200, [&](std::size_t i) {
+      run_with_threads(1 + static_cast<int>(i % 4), [&] { parallel_for(4, [&](std::size_t) { ++done; }); });
+    });
+  });
+  EXPECT_EQ(done, 800);
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 #include <sightline/algorithms/levels/grid.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <stdexcept>
 
 namespace sightline {
 namespace {
@@ -30,6 +33,31 @@ TEST(Level_cells, of_no_face_are_one) {
   EXPECT_TRUE(level.cells()[0].is_outside);
   EXPECT_FALSE(level.cells()[0].is_solid);
   EXPECT_EQ(level.at({0, 0, 0}), 0u);
+}
+
+TEST(Level_cells, tell_of_their_tree_and_then_of_its_nodes) {
+  const Polygon_soup soup = corpus_scene("general/two_rooms.off");
+  std::atomic<std::size_t> calls{0}, too_much{0}, nodes{0};
+  Cell_options options;
+  options.progress = [&](std::size_t done, std::size_t all) {
+    ++calls;
+    too_much += done > all;
+    nodes = all;
+  };
+  const Level_cells level(soup, options);
+  EXPECT_EQ(too_much, 0u);
+  EXPECT_GT(calls, nodes);  // each once, after what is told of the tree
+  options.progress = [](std::size_t, std::size_t) { throw std::domain_error("enough"); };
+  EXPECT_THROW(Level_cells(soup, options), std::domain_error);
+  // Of boxes that are given first.
+  options.tree = even_boxes(soup, {3, 2, 4});
+  std::size_t of_boxes = 0;
+  options.progress = [&](std::size_t, std::size_t all) {
+    of_boxes = all;
+    throw std::domain_error("enough");
+  };
+  EXPECT_THROW(Level_cells(soup, options), std::domain_error);
+  EXPECT_EQ(of_boxes, options.tree.nodes.size());
 }
 
 TEST(Level_cells, are_within_even_boxes) {

@@ -178,7 +178,9 @@ TEST_F(Compare_visible, what_no_method_can_do_is_a_usage_error) {
                                                {"--sizes", "0"},
                                                {"--sizes", "100000"},
                                                {"--bits", "33"},
-                                               {"--near", "-1"}}) {
+                                               {"--near", "-1"},
+                                               {"--near", "2", "--far", "1"},
+                                               {"--near", "1", "--far", "1.00000000001"}}) {
     std::vector<std::string> words{"compare", cube, "see"};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome r = run(words);

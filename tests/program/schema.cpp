@@ -46,6 +46,7 @@ TEST_F(Schema, of_each_command_is_what_it_writes) {
       {"shadow", rooms, "--light", "1,1,2", "--sun", "1,2,3", "--two-sided"},
       {"shadow", cube, "--light", "3,4,5", "--volume", path("dark.obj").string()},
       {"render", rooms, "--eye", "1,1,2", "--size", "16x16", "--png", path("seen.png").string()},
+      {"render", rooms, "--eye", "1,1,2", "--size", "16x16", "--method", "centres"},
       {"boolean", "union", cube, cube},
       {"boolean", "difference", cube, (corpus / "general" / "cube.off").string(), "--round", "float", "--out",
        path("less.obj").string()},
