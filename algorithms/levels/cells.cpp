@@ -160,6 +160,8 @@ struct Level_cells::Space {
     bsp.candidates = options.candidates;
     bsp.seed = options.seed;
     bsp.threads = options.threads;
+    if (options.progress)  // the first half of all
+      bsp.progress = [&tell = options.progress](std::size_t done, std::size_t all) { tell(done, 2 * all); };
     return bsp;
   }
 
@@ -227,7 +229,7 @@ class Wall_builder {
       path.resize(depth);
       if (depth > 0) path.back().second = tree_.nodes[static_cast<std::size_t>(path.back().first)].front == node;
       divide_node(node, path);
-      if (progress) progress(++done, tree_.nodes.size());
+      if (progress) progress(tree_.nodes.size() + ++done, 2 * tree_.nodes.size());  // the second half
       const auto& here = tree_.nodes[static_cast<std::size_t>(node)];
       path.push_back({node, true});
       if (here.behind != Tree::leaf) stack.push_back({here.behind, depth + 1});

@@ -71,7 +71,8 @@ struct Cell_options {
   std::uint64_t seed = 1;
   int threads = 0;       ///< 0: as many as there are processors
   Space_tree tree = {};  ///< each cell is within one of its leaves. Pre: no node is below itself
-  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< nodes
+  std::function<void(std::size_t done, std::size_t all)> progress =
+      {};  ///< fragments of the tree, then its nodes; called from any thread, and what it throws ends it
 };
 
 /// The leaves of a BSP tree of all faces, cut off by a box twice as large as the scene. Cells are open, convex and

@@ -6,6 +6,10 @@
 #include <sightline/algorithms/levels/grid.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
 
 namespace sightline {
 namespace {
@@ -30,6 +34,29 @@ TEST(Level_cells, of_no_face_are_one) {
   EXPECT_TRUE(level.cells()[0].is_outside);
   EXPECT_FALSE(level.cells()[0].is_solid);
   EXPECT_EQ(level.at({0, 0, 0}), 0u);
+}
+
+TEST(Level_cells, tell_how_far_their_tree_is_too_and_end_by_what_that_throws) {
+  const Polygon_soup soup = corpus_scene("general/two_rooms.off");
+  Cell_options options;
+  options.threads = 1;
+  std::vector<std::array<std::size_t, 2>> told;
+  options.progress = [&](std::size_t done, std::size_t all) { told.push_back({done, all}); };
+  const Level_cells level(soup, options);
+  const std::size_t nodes = level.counters().nodes;
+  ASSERT_GT(told.size(), nodes);
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    const auto [done, all] = told[k];
+    EXPECT_EQ(2 * done <= all, k < told.size() - nodes) << "first the tree, then a wall's plane for each node";
+  }
+  EXPECT_EQ(told.back(), (std::array<std::size_t, 2>{2 * nodes, 2 * nodes}));
+  std::size_t calls = 0;
+  options.progress = [&](std::size_t, std::size_t) {
+    ++calls;
+    throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(Level_cells(soup, options), std::runtime_error);
+  EXPECT_EQ(calls, 1u);
 }
 
 TEST(Level_cells, are_within_even_boxes) {
