@@ -252,6 +252,18 @@ TEST_F(Levels, what_stands_on_a_brush_is_in_the_room_beside_it) {
   EXPECT_NE(nothing.err.find("nothing is known of leaks"), std::string::npos) << nothing;
 }
 
+TEST_F(Levels, from_standard_input_are_levels_all_the_same) {
+  input_ = file("leak.map", without_brush(rooms, 1));
+  EXPECT_EQ(run({"cells", "-", "--seal", "entities"}).code, disagreement);
+  const Outcome refused = run({"pvs", "-"});
+  EXPECT_EQ(refused.code, bad_input) << refused;
+  EXPECT_NE(refused.err.find("there is a way out from info_player_start"), std::string::npos) << refused;
+  EXPECT_EQ(run({"pvs", "-", "--outside"}).code, done);
+  input_ = rooms;
+  EXPECT_EQ(run({"cells", "-", "--seal", "entities"}).code, done);
+  EXPECT_EQ(run({"pvs", "-", "--leaves"}).code, usage);  // not a compiled one
+}
+
 TEST_F(Levels, a_table_that_is_there_is_shown_and_written_without_being_asked_again) {
   for (const char* shard : {"0/2", "1/2"})
     ASSERT_EQ(run({"pvs", rooms, "--grid", "3,2,1", "--cells-too", "--shard", shard, "--out",
