@@ -252,6 +252,13 @@ TEST_F(Levels, what_stands_on_a_brush_is_in_the_room_beside_it) {
   EXPECT_NE(nothing.err.find("nothing is known of leaks"), std::string::npos) << nothing;
 }
 
+TEST_F(Levels, of_no_face_that_is_kept_have_a_picture) {
+  const std::string flat = file("flat.off", "OFF\n3 1 0\n0 0 0\n1 1 1\n2 2 2\n3 0 1 2\n");
+  const Outcome drawn = run({"pvs", flat, "--show", "0", "--svg", out("flat.svg")});
+  EXPECT_EQ(drawn.code, done) << drawn;
+  EXPECT_NE(bytes_of("flat.svg").find("<svg"), std::string::npos);
+}
+
 TEST_F(Levels, from_standard_input_are_levels_all_the_same) {
   input_ = file("leak.map", without_brush(rooms, 1));
   EXPECT_EQ(run({"cells", "-", "--seal", "entities"}).code, disagreement);
