@@ -216,7 +216,7 @@ Exit run(const Cells_arguments& arguments) {
     leaks.push_back({{"from", point_json(p)}, {"way", std::move(way)}});
   }
   if (!given.empty() && seals.empty())
-    throw Input_error::of_file(common.scene,
+    throw Input_error::of_file(input_path(common.scene).string(),
                                "none of its entities stands in a room, so that nothing is known of leaks; give a "
                                "point of one, --seal X,Y,Z");
   if (!arguments.out.empty()) write_file(arguments.out, cells_text(level, soup, division, regions));

@@ -85,9 +85,12 @@ std::size_t frames_of_page(std::size_t pieces) {
 /// A path, by whatever tracker: move(view) says what it took.
 template <class Tracker, class Move>
 Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph,
-                const Path& path, const Tracker& tracker, Move move) {
+                const Path& path, const Report& in_time, const Tracker& tracker, Move move) {
   Progress progress("moving");
-  const auto report = arguments.common.within_budget(progress);
+  const auto report = [&](std::size_t done, std::size_t all) {
+    in_time(done, all);
+    progress(done, all);
+  };
   const std::size_t every = (path.size + pictures_in_a_strip - 1) / pictures_in_a_strip,
                     in_page = frames_of_page(graph.scene().pieces().size()),
                     every_in_page = (path.size + in_page - 1) / in_page;
@@ -235,8 +238,12 @@ void print_frames(const Followed& followed, bool check) {
 
 Exit run_decisions(const Cutset_arguments& arguments) {
   const Scene scene = scene_of(arguments.common.read());
+  const Report in_time = arguments.common.within_budget();
   const Stopwatch watch;
-  const Decisions decisions = decide(arguments.decisions, Face_graph(scene));
+  const Decisions decisions = [&] {
+    const Waiting waiting("searching");
+    return decide(arguments.decisions, Face_graph(scene), in_time);
+  }();
   const double seconds = watch.seconds();
   if (write_json(arguments.common, "cutset", scene, {{"decision_tree", to_json(decisions)}},
                  {{"states", decisions.tree.states}}, {{"search", seconds}}))
@@ -255,22 +262,32 @@ void check_usage(const Cutset_arguments& arguments) {
     throw Usage_error("cutset wants a path (--path FILE, --orbit FRAMES or --motion FILE) or --decision-tree");
   if (!decisions.wanted && (decisions.inside || !decisions.likelihood.empty()))
     throw Usage_error("--inside and --likelihood go with --decision-tree");
-  if (decisions.wanted && !arguments.html.empty())
-    throw Usage_error("--html shows a path: leave it out with --decision-tree");
+  for (const auto& [option, is_given] : {std::pair("--html", !arguments.html.empty()),
+                                         {"--svg", !arguments.svg.empty()},
+                                         {"--faces", arguments.faces},
+                                         {"--check", arguments.check},
+                                         {"--method", arguments.method != Cutset_arguments{}.method}})
+    if (decisions.wanted && is_given)
+      throw Usage_error(fmt::format("{} is of a path: leave it out with --decision-tree", option));
+  for (const auto& [option, is_given] : {std::pair("--size", !arguments.canvas.size.empty()),
+                                         {"--background", !arguments.canvas.background.empty()},
+                                         {"--shade", arguments.shade != Cutset_arguments{}.shade}})
+    if (arguments.svg.empty() && is_given)
+      throw Usage_error(fmt::format("{} is of a picture: add --svg FILE, or leave it out", option));
 }
 
 /// By the tracker or by an update as published, which tests all nodes for the first frame.
 Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph,
-                const Path& path) {
+                const Path& path, const Report& in_time) {
   if (arguments.method == "tracker") {
     Cut_set_tracker tracker(traits, graph);
-    return follow(arguments, traits, graph, path, tracker,
+    return follow(arguments, traits, graph, path, in_time, tracker,
                   [&](const Viewpoint& view) { return tracker.move_to(view); });
   }
   Cut_set_1977<Exact_traits> update(traits, graph, path.at(0),
                                     arguments.method == "1977" ? Reading_1977::mended : Reading_1977::literal);
   bool started = false;
-  return follow(arguments, traits, graph, path, update, [&](const Viewpoint& view) {
+  return follow(arguments, traits, graph, path, in_time, update, [&](const Viewpoint& view) {
     Cut_set_counters counters;
     counters.tests = started ? update.update_1977(view) : graph.size();
     started = true;
@@ -356,12 +373,13 @@ Exit run(const Cutset_arguments& arguments) {
   if (arguments.decisions.wanted) return run_decisions(arguments);
   const Scene scene = scene_of(common.read());
   const Path path = path_of(arguments.path, scene);
+  const Report in_time = common.within_budget();
+  const Time_limit limit(common.budget);
   const Stopwatch watch;
   const Face_graph graph(scene);
   const Exact_traits traits(scene);
   const double graph_seconds = watch.seconds();
-  const Time_limit limit(common.budget);
-  const Followed followed = follow(arguments, traits, graph, path);
+  const Followed followed = follow(arguments, traits, graph, path, in_time);
 
   if (!arguments.svg.empty()) write_picture(arguments, graph, followed.frames);
   if (!arguments.html.empty())

@@ -387,8 +387,7 @@ static Exit run(const Order_arguments& arguments) {
   Scene scene = scene_of(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = arguments.svg.empty() ? View{eye} : arguments.view.view(eye, scene);
-  const std::optional<std::array<Integer, 4>> near =
-      arguments.svg.empty() || scene.counters().faces == 0 ? std::nullopt : near_plane(view, scene);
+  const std::optional<std::array<Integer, 4>> near = arguments.svg.empty() ? std::nullopt : near_plane(view, scene);
 
   // 1. The order.
   Progress progress("building");

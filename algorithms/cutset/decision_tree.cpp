@@ -9,7 +9,8 @@ std::vector<Weighted_view> uniform_likelihood(std::span<const View_cell> cells, 
   return views;
 }
 
-Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces, std::size_t most_states) {
+Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces, std::size_t most_states,
+                          const std::function<void()>& ask) {
   if (faces > 32) throw std::invalid_argument("decision trees for " + std::to_string(faces) + " faces: at most 32");
   Integer common = 1, total = 0;
   for (const Weighted_view& view : views) {
@@ -28,10 +29,10 @@ Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces, 
   if (sgn(total) == 0) throw std::invalid_argument("no view has a weight; give one of them a weight above zero");
   Decision_tree tree;
   if (bit_length(total) <= 57)  // a path has at most 32 tests, so all sums stay below 2^62
-    decision_tree_detail::fill<std::int64_t>(tree, weights, total, most_states,
+    decision_tree_detail::fill<std::int64_t>(tree, weights, total, most_states, ask,
                                              [](const Integer& weight) { return weight.get_si(); });
   else
-    decision_tree_detail::fill<Integer>(tree, weights, total, most_states,
+    decision_tree_detail::fill<Integer>(tree, weights, total, most_states, ask,
                                         [](const Integer& weight) { return weight; });
   return tree;
 }

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -33,6 +34,7 @@ struct Weighted_view {
 /// One view alone has no steps.
 struct Decision_tree {
   static constexpr std::uint32_t leaf = 1u << 31;
+  static constexpr std::size_t most_states = 25'000'000;  ///< beyond these a search is given up, as a rule
 
   struct Step {
     std::uint32_t face;     ///< the one to test
@@ -115,7 +117,8 @@ class Search {
     Number weight;
   };
 
-  Search(std::vector<View> views, std::size_t most_states) : views_(std::move(views)), most_states_(most_states) {}
+  Search(std::vector<View> views, std::size_t most_states, const std::function<void()>& ask)
+      : views_(std::move(views)), most_states_(most_states), ask_(ask) {}
 
   /// Fills in steps, views and states. The result: the sum of weight times tests over the views.
   Number build(Decision_tree& tree) {
@@ -172,6 +175,7 @@ class Search {
 
   /// The cost of a set, and the lowest face that a best tree may test first. Permutes the views. Pre: there are two.
   Choice best(Views views) {
+    if (ask_) ask_();
     Part whole;
     for (const View& view : views) whole.add(view);
     std::optional<Choice> found;
@@ -225,15 +229,16 @@ class Search {
 
   std::vector<View> views_;
   std::size_t most_states_;
+  const std::function<void()>& ask_;
   Cost_table<Number> costs_;
 };
 
 template <class Number, class Convert>
 void fill(Decision_tree& tree, const std::map<std::uint32_t, Integer>& weights, const Integer& total,
-          std::size_t most_states, Convert convert) {
+          std::size_t most_states, const std::function<void()>& ask, Convert convert) {
   std::vector<typename Search<Number>::View> views;
   for (const auto& [on_view, weight] : weights) views.push_back({on_view, convert(weight)});
-  Search<Number> search(std::move(views), most_states);
+  Search<Number> search(std::move(views), most_states, ask);
   tree.bound = Rational(Integer(search.bound()), total);
   tree.expected = Rational(Integer(search.build(tree)), total);
   tree.bound.canonicalize();
@@ -254,7 +259,9 @@ void fill(Decision_tree& tree, const std::map<std::uint32_t, Integer>& weights, 
 ///     seconds   0.001  0.02   0.3    5       24      107
 ///     MB                      8      90      200     770
 /// So 20 faces in 10 s, 24 in 1 GB. Weights whose sum has more than 57 bits once they are integers take four times as
-/// long. Beyond `most_states` states: std::length_error. Exact: yes. Proof: P-53
-Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces, std::size_t most_states = 25'000'000);
+/// long. Beyond `most_states` states: std::length_error. `ask` is called for each; what it throws ends it. Exact: yes.
+/// Proof: P-53
+Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces,
+                          std::size_t most_states = Decision_tree::most_states, const std::function<void()>& ask = {});
 
 }  // namespace sightline

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <utility>
@@ -120,10 +121,11 @@ Rational short_step(std::span<const Form<dimension>> forms, const Point<dimensio
 /// a new one cuts are those that meet it, and it meets them in the open cells of the earlier ones within it. Proof:
 /// P-52
 template <std::size_t dimension>
-Cells<dimension> open_cells(std::span<const Form<dimension>> forms) {
+Cells<dimension> open_cells(std::span<const Form<dimension>> forms, const std::function<void()>& ask) {
   Cells<dimension> cells;
   cells[0] = Point<dimension>{};
   for (std::size_t k = 0; k < forms.size(); ++k) {
+    if (ask) ask();
     Cells<dimension> next;
     if constexpr (dimension > 0) {
       if (!is_constant<dimension>(forms[k])) {
@@ -137,7 +139,7 @@ Cells<dimension> open_cells(std::span<const Form<dimension>> forms) {
         Point<dimension> normal;
         std::copy_n(forms[k].begin(), dimension, normal.begin());
         if (is_new)
-          for (const auto& [on, below] : open_cells<dimension - 1>(earlier)) {
+          for (const auto& [on, below] : open_cells<dimension - 1>(earlier, ask)) {
             const Point<dimension> p = hyperplane.lifted(below);
             const Rational step = short_step<dimension>(forms.first(k), p, normal);
             for (const int side : {1, -1}) {
@@ -159,8 +161,9 @@ Cells<dimension> open_cells(std::span<const Form<dimension>> forms) {
 /// only later ones need be taken. Where no form is positive in some open cell, all sets are those of open cells. Proof:
 /// P-52
 template <std::size_t dimension>
-Cells<dimension> all_cells(std::span<const Form<dimension>> forms, std::size_t first) {
-  Cells<dimension> cells = open_cells<dimension>(forms);
+Cells<dimension> all_cells(std::span<const Form<dimension>> forms, std::size_t first,
+                           const std::function<void()>& ask) {
+  Cells<dimension> cells = open_cells<dimension>(forms, ask);
   if (cells.contains(0)) return cells;
   if constexpr (dimension > 0)
     for (std::size_t k = first; k < forms.size(); ++k) {
@@ -168,7 +171,7 @@ Cells<dimension> all_cells(std::span<const Form<dimension>> forms, std::size_t f
       const Hyperplane<dimension> hyperplane(forms[k]);
       std::vector<Form<dimension - 1>> restricted;
       for (const Form<dimension>& form : forms) restricted.push_back(hyperplane.restricted(form));
-      for (const auto& [on, p] : all_cells<dimension - 1>(restricted, k + 1))
+      for (const auto& [on, p] : all_cells<dimension - 1>(restricted, k + 1, ask))
         if (!cells.contains(on)) cells.emplace(on, hyperplane.lifted(p));
     }
   return cells;
@@ -183,7 +186,9 @@ Cells<dimension> all_cells(std::span<const Form<dimension>> forms, std::size_t f
 /// Degenerate: planes may coincide in either sense, be parallel, and meet many at a time; no planes give one cell,
 /// which has none on-view. In a plane counts as off-view, so what only eyes in planes have on-view is listed too, with
 /// `open` false. Cost: O(n^4) rational operations; 24 planes of 26-bit coefficients in general position take 1 s if an
-/// open set of eyes has none on-view, else 3 s. Exact: yes. Proof: P-52
-std::vector<View_cell> view_cells(std::span<const std::array<Rational, 4>> planes);
+/// open set of eyes has none on-view, else 3 s. `ask` is called all the time; what it throws ends it. Exact: yes.
+/// Proof: P-52
+std::vector<View_cell> view_cells(std::span<const std::array<Rational, 4>> planes,
+                                  const std::function<void()>& ask = {});
 
 }  // namespace sightline

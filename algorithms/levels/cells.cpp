@@ -76,7 +76,7 @@ class Given_tree {
       const Plane plane = planes_[static_cast<std::size_t>(job.number)];
       nodes.push_back({plane});
       leaves.push_back({});
-      if (progress) progress(nodes.size(), tree.nodes.size());
+      if (progress) progress(0, tree.nodes.size());
       for (const bool in_front : {false, true}) {
         Waiting& below =
             stack.emplace_back(Waiting{tree.nodes[static_cast<std::size_t>(job.number)].children[in_front ? 0 : 1],
@@ -166,7 +166,8 @@ struct Level_cells::Space {
     bsp.candidates = options.candidates;
     bsp.seed = options.seed;
     bsp.threads = options.threads;
-    if (options.progress) bsp.progress = options.progress;
+    if (options.progress)  // the first half of all
+      bsp.progress = [&tell = options.progress](std::size_t done, std::size_t all) { tell(done, 2 * all); };
     return bsp;
   }
 
@@ -234,7 +235,7 @@ class Wall_builder {
       path.resize(depth);
       if (depth > 0) path.back().second = tree_.nodes[static_cast<std::size_t>(path.back().first)].front == node;
       divide_node(node, path);
-      if (progress) progress(++done, tree_.nodes.size());
+      if (progress) progress(tree_.nodes.size() + ++done, 2 * tree_.nodes.size());  // the second half
       const auto& here = tree_.nodes[static_cast<std::size_t>(node)];
       path.push_back({node, true});
       if (here.behind != Tree::leaf) stack.push_back({here.behind, depth + 1});

@@ -71,7 +71,8 @@ struct Cell_options {
   std::uint64_t seed = 1;
   int threads = 0;       ///< 0: as many as there are processors
   Space_tree tree = {};  ///< each cell is within one of its leaves. Pre: no node is below itself
-  /// Nodes of the given tree, fragments of the whole one, called from any thread, and then its nodes.
+  /// Planes of the given tree, none of which counts; fragments of the whole one, then its nodes, as a half each. Called
+  /// from any thread; what it throws ends it.
   std::function<void(std::size_t done, std::size_t all)> progress = {};
 };
 

@@ -49,7 +49,7 @@ Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::u
   return found;
 }
 
-template Pixel_sets pixel_sets(const Priority_relation<Exact_traits>&, const Pixel_view&);
+template Pixel_sets pixel_sets(const Priority_relation<Exact_traits>&, const Pixel_view&, const std::function<void()>&);
 template std::vector<std::uint32_t> priorities(const Exact_traits&, const Priority_tree<Exact_traits>&,
                                                const Exact_point&);
 

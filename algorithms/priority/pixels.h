@@ -18,6 +18,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -54,9 +55,11 @@ struct Pixel_cone {
 
 /// The sets S of an image. Degenerate: a ray through an edge or a corner pierces no inside; faces that are edge-on or
 /// off-view are never pierced. Cost: for each on-view polygon the pixels of its bounding rectangle, or all of them
-/// where it reaches behind the eye. Exact: yes. Pre: finite directions. Proof: P-40
+/// where it reaches behind the eye. `ask` is called before each of their rows; what it throws ends it. Exact: yes. Pre:
+/// finite directions. Proof: P-40
 template <class Traits>
-Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& view) {
+Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& view,
+                      const std::function<void()>& ask = {}) {
   const Traits& traits = faces.traits();
   const typename Traits::Eye viewpoint = traits.eye(view.eye);
   Predicate_counts counts;
@@ -91,12 +94,14 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
                        bottom = std::min<std::int64_t>(view.height - std::int64_t{1}, pixel(-box[2], view.height) + 1);
 
     // 2. Their rays.
-    for (std::int64_t y = top; y <= bottom; ++y)
+    for (std::int64_t y = top; y <= bottom; ++y) {
+      if (ask) ask();
       for (std::int64_t x = left; x <= right; ++x) {
         ++sets.rays;
         if (cone.holds(view.ray(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), sets))
           found.emplace_back(static_cast<std::uint32_t>(y * view.width + x), i);
       }
+    }
   }
 
   std::sort(found.begin(), found.end());
@@ -140,7 +145,8 @@ struct Pixel_statistics {
 Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::uint32_t> priority);
 
 // Compiled once.
-extern template Pixel_sets pixel_sets(const Priority_relation<Exact_traits>&, const Pixel_view&);
+extern template Pixel_sets pixel_sets(const Priority_relation<Exact_traits>&, const Pixel_view&,
+                                      const std::function<void()>&);
 extern template std::vector<std::uint32_t> priorities(const Exact_traits&, const Priority_tree<Exact_traits>&,
                                                       const Exact_point&);
 

@@ -1,6 +1,7 @@
 // compare pvs: what the cells of a level see, by flooding, by rays at random and from middle to middle, through any
 // portals, and by the table that a compiled level came with.
 
+#include "../support/leaves.h"
 #include "../support/limited_process.h"
 #include "../support/page.h"
 #include "compare.h"
@@ -10,7 +11,6 @@
 
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/harness/compare/cell_sights.h>
-#include <sightline/io/file.h>
 #include <sightline/io/quake_bsp.h>
 #include <sightline/own_leaves.h>
 
@@ -313,10 +313,10 @@ std::vector<Cell_id> asked_cells(const Pvs& exact) {
 }
 
 /// A compiled level with a table of what its leaves see.
-std::optional<Quake_level> level_with_table(const std::string& scene) {
-  const std::string bytes = scene.empty() || scene == "-" ? std::string() : read_bytes(scene);
+std::optional<Quake_level> level_with_table(const Common& common) {
+  const std::string bytes = common.scene.empty() ? std::string() : level_bytes(common);
   if (!looks_like_quake_level(bytes)) return {};
-  Quake_level file = read_quake_level({scene, bytes});
+  Quake_level file = read_quake_level({common.scene, bytes});
   if (file.visibility.empty()) return {};
   return file;
 }
@@ -337,7 +337,7 @@ struct Level_trial : Trial {
   /// The budget is for the truth too, which leaves pairs open then. `samples`: there are pairs to measure.
   Level_trial(const Compare_arguments& arguments, const Polygon_soup& soup, bool samples)
       : limit(arguments.common.budget),
-        file(level_with_table(arguments.common.scene)),
+        file(level_with_table(arguments.common)),
         tree(file ? space_tree(*file, arguments.common.scene) : Space_tree()),
         level(soup, cell_options(arguments.common, tree)),
         occluders(level.scene()),

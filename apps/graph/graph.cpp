@@ -196,8 +196,9 @@ std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& trait
   for (const View& unaimed : views) {
     const View view = scene.counters().faces > 0 ? aimed(unaimed, scene) : unaimed;
     report(images.size(), views.size());
-    const Pixel_sets sets = pixel_sets(faces, pixel_view(view));
+    const Pixel_sets sets = pixel_sets(faces, pixel_view(view), [&] { report(images.size(), views.size()); });
     Pixel_image image{view, pixel_statistics(sets, h), pixel_statistics(sets, priorities(traits, tree, view.eye)), {}};
+    report(images.size(), views.size());
     if (!images.empty()) {
       const std::vector<std::uint32_t> before = std::exchange(images.back().by_number.image, {}),
                                        &now = image.by_number
@@ -254,6 +255,8 @@ void write_mesh(const Scene& scene, const Priority_components& components, const
 Viewpoints viewpoints_of(const Graph_arguments& arguments) {
   Viewpoints asked{parse_points(arguments.box, "--box"), parse_points(arguments.region, "--region"), {}, {}};
   if (!arguments.box.empty() && asked.box.size() != 2) throw Usage_error("--box wants two corners X,Y,Z X,Y,Z");
+  if (!arguments.region.empty() && asked.region.empty())
+    throw Usage_error("--region wants points X,Y,Z X,Y,Z ..., at least one");
   if (!arguments.eye.empty()) asked.eye = parse_point(arguments.eye, "--eye");
   if (!arguments.direction.empty()) asked.direction = parse_point(arguments.direction, "--ray");
   if (asked.direction && *asked.direction == Exact_point())

@@ -78,17 +78,26 @@ class Kept_cells {
   std::map<std::uint64_t, Certificate_facts> indexed_;
 };
 
+/// All that are not set aside, ascending.
+std::vector<Face_id> kept_faces(const Scene& scene) {
+  std::vector<Face_id> faces;
+  for (const Piece& piece : scene.pieces())  // in the order of faces
+    if (faces.empty() || faces.back() != piece.face) faces.push_back(piece.face);
+  return faces;
+}
+
 /// What the portals of a cell see outwards: how many faces are undecided, as they are once the budget is over; those
 /// that nothing is proved of; then the certificate.
 std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& level, const Occluders& occluders,
                            const Time_limit& limit, Cell_id cell) {
   Sources sources;
-  for (const std::vector<Exact_point>& portal : portals_of(level, cell)) {
-    sources.polygons.push_back(weak_source(occluders, portal));
-    sources.points.push_back(portal);
-  }
+  sources.points = portals_of(level, cell);
   Weakly_visible found;
-  if (!sources.polygons.empty()) {
+  if (!sources.points.empty() && limit.is_over()) {
+    found.undecided = kept_faces(level.scene());  // without asking of each portal and face that there is no time
+  } else if (!sources.points.empty()) {
+    for (const std::vector<Exact_point>& portal : sources.points)
+      sources.polygons.push_back(weak_source(occluders, portal));
     Weak_task task;
     task.threads = arguments.common.threads;
     task.seed = arguments.common.seed;

@@ -72,9 +72,9 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   if (const Division_arguments& d = arguments.division;
       !d.grid.empty() || !d.volumes.empty() || d.coarse > 0 || !arguments.cells.empty())
     throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --cells, --grid, --volumes and --coarse");
+  const Polygon_soup soup = common.read();
   const std::string bytes = compiled_level(common, "--out FILE.bsp");
   const Quake_level file = read_quake_level({common.scene, bytes});
-  const Polygon_soup soup = common.read();
   const Stopwatch watch;
   Division_arguments by_leaves;
   by_leaves.candidates = arguments.division.candidates;

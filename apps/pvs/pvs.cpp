@@ -50,7 +50,7 @@ void check_leaks(const Common& common, const Level_cells& level) {
   for (const Map_place& place : places_of(common).value_or(std::vector<Map_place>{})) {
     const std::vector<Cell_id> cells = level.about(place.origin);
     if (std::any_of(cells.begin(), cells.end(), leads_out))
-      throw Input_error::of_file(common.scene,
+      throw Input_error::of_file(input_path(common.scene).string(),
                                  fmt::format("is not shut: there is a way out from {} at {}; `sightline cells SCENE "
                                              "--seal entities` shows ways; --outside asks about all cells",
                                              place.name, Page::text(place.origin)));

@@ -46,6 +46,7 @@ Polygon_soup Scene_format::read(const std::string& file, const Read_options& opt
   for (const auto& [one, known] : format_names)
     if (name == one) format = known;
   if (!format) throw std::runtime_error(called + ": its content shows no format; say which with --format");
+  if (format == Format::map || format == Format::bsp) *level = bytes;
   try {
     return read_scene(bytes, *format, called, options);
   } catch (const Input_error& error) {

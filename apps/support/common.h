@@ -16,6 +16,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -31,6 +32,8 @@ class Progress;
 struct Scene_format {
   std::string name;  ///< empty: the content shows it
   std::optional<Command> command;
+  /// What read() found on standard input where that is a level of Quake's: it cannot be read again.
+  std::shared_ptr<std::string> level = std::make_shared<std::string>();
 
   void add_to(Command of);
   /// Errors: Input_error; std::runtime_error of standard input, which says what to do; Usage_error where it is said of

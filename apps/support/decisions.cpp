@@ -4,7 +4,10 @@
 
 #include <sightline/io/input.h>
 
+#include <algorithm>
 #include <iostream>
+#include <map>
+#include <numeric>
 
 namespace sightline::app {
 
@@ -21,7 +24,8 @@ void add_to(Command command, Decision_arguments& arguments) {
 }
 
 /// Errors: std::invalid_argument for a scene that has no such tree; those of reading the likelihood.
-static Decisions decided(const Decision_arguments& arguments, const Face_graph& graph) {
+static Decisions decided(const Decision_arguments& arguments, const Face_graph& graph, const Report& in_time) {
+  const auto ask = [&] { in_time(0, 1); };
   Decisions found;
   std::vector<std::uint32_t> nodes(graph.size());
   std::iota(nodes.begin(), nodes.end(), 0u);
@@ -33,7 +37,7 @@ static Decisions decided(const Decision_arguments& arguments, const Face_graph& 
     found.faces.push_back(graph.scene().pieces()[graph.piece(node)].face);
   }
   if (planes.empty()) throw std::invalid_argument("no face is left, and a decision tree tells faces' views apart");
-  const std::vector<View_cell> cells = view_cells(planes);
+  const std::vector<View_cell> cells = view_cells(planes, ask);
   found.cells = cells.size();
   for (const View_cell& cell : cells) found.open_cells += cell.open;
 
@@ -41,29 +45,33 @@ static Decisions decided(const Decision_arguments& arguments, const Face_graph& 
   if (arguments.likelihood.empty()) {
     views = uniform_likelihood(cells, arguments.inside);
   } else {
+    std::map<Rational, std::uint32_t> bits;  // by face: of several that hang together in one plane each has its bit
+    for (std::uint32_t i = 0; i < graph.scene().pieces().size(); ++i) {
+      const auto bit = std::find(nodes.begin(), nodes.end(), graph.node(i)) - nodes.begin();
+      bits[graph.scene().pieces()[i].face] |= 1u << bit;
+    }
     read_lines(arguments.likelihood,
                "a view WEIGHT,FACE,FACE,... that some viewpoint has, with a weight that is not negative and faces of "
                "this scene",
                [&](const std::vector<Rational>& n) {
                  std::uint32_t on_view = 0;
                  for (std::size_t k = 1; k < n.size(); ++k) {
-                   std::size_t bit = 0;
-                   while (bit < found.faces.size() && n[k] != found.faces[bit]) ++bit;
-                   if (bit == found.faces.size()) return false;
-                   on_view |= 1u << bit;
+                   const auto named = bits.find(n[k]);
+                   if (named == bits.end()) return false;
+                   on_view |= named->second;
                  }
                  views.push_back({on_view, n[0]});
                  return sgn(n[0]) >= 0 && std::any_of(cells.begin(), cells.end(),
                                                       [&](const View_cell& cell) { return cell.on_view == on_view; });
                });
   }
-  found.tree = least_tests(views, static_cast<unsigned>(planes.size()));
+  found.tree = least_tests(views, static_cast<unsigned>(planes.size()), Decision_tree::most_states, ask);
   return found;
 }
 
-Decisions decide(const Decision_arguments& arguments, const Face_graph& graph) {
+Decisions decide(const Decision_arguments& arguments, const Face_graph& graph, const Report& in_time) {
   try {
-    return decided(arguments, graph);
+    return decided(arguments, graph, in_time);
   } catch (const std::invalid_argument& error) {
     throw Input_error::of_file(graph.scene().file(), error.what());
   }

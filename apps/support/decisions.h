@@ -21,8 +21,9 @@ struct Decisions {
   std::vector<Face_id> faces;  ///< of bit k; the lowest face id of those in one plane that hang together
   std::size_t cells = 0, open_cells = 0;
 };
-/// Errors: Input_error for a bad file, and for a scene that has no such tree; std::length_error for too many views.
-Decisions decide(const Decision_arguments& arguments, const Face_graph& graph);
+/// Errors: Input_error for a bad file, and for a scene that has no such tree; std::length_error for too many views;
+/// what `in_time` throws, which is called all the time.
+Decisions decide(const Decision_arguments& arguments, const Face_graph& graph, const Report& in_time);
 Json to_json(const Decisions& decisions);
 void print(const Decisions& decisions);
 

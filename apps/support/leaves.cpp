@@ -152,16 +152,21 @@ Level_cells cells_of(const Common& common, const Polygon_soup& soup, const Divis
   return Level_cells(soup, options);
 }
 
+std::string level_bytes(const Common& common) {
+  return common.scene == "-" ? *common.format.level : read_bytes(common.scene);
+}
+
 std::string compiled_level(const Common& common, const std::string& wanted) {
-  if (common.scene != "-")
-    if (std::string bytes = read_bytes(common.scene); looks_like_quake_level(bytes)) return bytes;
+  if (std::string bytes = level_bytes(common); looks_like_quake_level(bytes)) return bytes;
   throw Usage_error(wanted + " is of a level that is compiled, version 29; SCENE is none");
 }
 
 std::optional<std::vector<Map_place>> places_of(const Common& common) {
-  const std::optional<Format> format = format_of_ending(common.scene);
+  std::optional<Format> format = format_of_ending(common.scene);
+  if (common.scene == "-" && !common.format.level->empty())
+    format = looks_like_quake_level(*common.format.level) ? Format::bsp : Format::map;
   if (format != Format::map && format != Format::bsp) return std::nullopt;
-  const std::string bytes = read_bytes(common.scene);
+  const std::string bytes = level_bytes(common);
   return format == Format::map ? read_map_places({common.scene, bytes}) : read_level_places({common.scene, bytes});
 }
 

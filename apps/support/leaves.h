@@ -56,10 +56,14 @@ struct Division_arguments {
 /// The cells of a level, with a bar. Errors: Out_of_budget: there is no answer without them.
 Level_cells cells_of(const Common& common, const Polygon_soup& soup, const Division& division);
 
-/// The bytes of SCENE where it is a compiled level. Errors: Usage_error that begins with `wanted` where it is none.
+/// The bytes of SCENE; of standard input, where that is a level. Pre: SCENE has been read.
+std::string level_bytes(const Common& common);
+
+/// The same where it is a compiled level. Errors: Usage_error that begins with `wanted` where it is none.
 std::string compiled_level(const Common& common, const std::string& wanted);
 
-/// What stands in SCENE, where it is a level by its name, .map or .bsp; nothing where it is none.
+/// What stands in SCENE, where it is a level by its name, .map or .bsp, or by what standard input is; nothing where it
+/// is none. Pre: as above.
 std::optional<std::vector<Map_place>> places_of(const Common& common);
 
 /// What leaves see, as a level has it: rows[l] is of leaf l + 1. Pre: cells are within the leaves of the level's tree.

@@ -35,6 +35,10 @@ void add_to(Command command, Path_arguments& arguments) {
 void check_usage(const Path_arguments& arguments) {
   if ((arguments.path.empty() ? 0 : 1) + (arguments.motion.empty() ? 0 : 1) + (arguments.orbit > 0 ? 1 : 0) > 1)
     throw Usage_error("give one of --path FILE, --orbit FRAMES and --motion FILE");
+  for (const auto& [option, is_given] : {std::pair("--radius", arguments.radius != Path_arguments{}.radius),
+                                         {"--height", arguments.height != Path_arguments{}.height}})
+    if (arguments.orbit == 0 && is_given)
+      throw Usage_error(fmt::format("{} is of an orbit: add --orbit FRAMES, or leave it out", option));
   if (!arguments.eye.empty()) {
     if (arguments.motion.empty())
       throw Usage_error("--eye goes with --motion; a single viewpoint is a --path of one line");

@@ -301,6 +301,7 @@ View aimed(View view, const Scene& scene) {
 }
 
 std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& scene) {
+  if (scene.counters().faces == 0) return std::nullopt;
   std::array<Integer, 4> h;
   for (std::size_t k = 0; k < 3; ++k) h[k] = static_cast<long>(std::lround(view.look[k] * 1024));
   const Located_point eye = scene.locate(view.eye);

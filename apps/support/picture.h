@@ -108,7 +108,7 @@ Axes axes_of(const View& view);
 /// Fills in the direction where it is zero.
 View aimed(View view, const Scene& scene);
 /// The near plane of a view in grid coordinates: across the direction, a thousandth of the scene's size in front of the
-/// eye. Nothing where all of the scene is in front of it.
+/// eye. Nothing where all of the scene is in front of it, or no face is left.
 std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& scene);
 /// The view's four corner rays, counterclockwise around its inside in the sense of field_of(). Exactly these doubles.
 std::vector<Exact_point> corner_rays(const View& view);

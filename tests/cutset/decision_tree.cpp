@@ -489,6 +489,25 @@ TEST(Decision_tree, of_a_box_takes_64_13ths_and_the_62_13ths_of_the_paper_are_wh
   EXPECT_TRUE(optimal(also_inside, with_inside, 6));
 }
 
+TEST(Decision_tree, asks_all_the_time_and_ends_by_what_that_throws) {
+  std::size_t asked = 0, throws_at = 0;
+  const auto ask = [&] {
+    if (++asked == throws_at) throw std::runtime_error("enough");
+  };
+  const std::vector<View_cell> cells = view_cells(box(), ask);
+  EXPECT_EQ(cells.size(), view_cells(box()).size());
+  EXPECT_GE(asked, 6u);  // for each plane
+  const Views views = uniform_likelihood(cells);
+  asked = 0;
+  const Decision_tree tree = least_tests(views, 6, Decision_tree::most_states, ask);
+  EXPECT_GE(asked, tree.states);
+  asked = 0;
+  throws_at = 3;
+  EXPECT_THROW(least_tests(views, 6, Decision_tree::most_states, ask), std::runtime_error);
+  asked = 0;
+  EXPECT_THROW(view_cells(box(), ask), std::runtime_error);
+}
+
 TEST(Decision_tree, of_other_bodies_is_what_all_partial_assignments_say) {
   struct Known {
     Plane_list planes;

@@ -6,9 +6,10 @@
 #include <sightline/algorithms/levels/grid.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <cstddef>
 #include <stdexcept>
+#include <vector>
 
 namespace sightline {
 namespace {
@@ -35,28 +36,35 @@ TEST(Level_cells, of_no_face_are_one) {
   EXPECT_EQ(level.at({0, 0, 0}), 0u);
 }
 
-TEST(Level_cells, tell_of_their_tree_and_then_of_its_nodes) {
+TEST(Level_cells, tell_how_far_their_tree_is_too_and_end_by_what_that_throws) {
   const Polygon_soup soup = corpus_scene("general/two_rooms.off");
-  std::atomic<std::size_t> calls{0}, too_much{0}, nodes{0};
   Cell_options options;
-  options.progress = [&](std::size_t done, std::size_t all) {
-    ++calls;
-    too_much += done > all;
-    nodes = all;
-  };
+  options.threads = 1;
+  std::vector<std::array<std::size_t, 2>> told;
+  options.progress = [&](std::size_t done, std::size_t all) { told.push_back({done, all}); };
   const Level_cells level(soup, options);
-  EXPECT_EQ(too_much, 0u);
-  EXPECT_GT(calls, nodes);  // each once, after what is told of the tree
-  options.progress = [](std::size_t, std::size_t) { throw std::domain_error("enough"); };
-  EXPECT_THROW(Level_cells(soup, options), std::domain_error);
+  const std::size_t nodes = level.counters().nodes;
+  ASSERT_GT(told.size(), nodes);
+  for (std::size_t k = 0; k < told.size(); ++k) {
+    const auto [done, all] = told[k];
+    EXPECT_EQ(2 * done <= all, k < told.size() - nodes) << "first the tree, then a wall's plane for each node";
+  }
+  EXPECT_EQ(told.back(), (std::array<std::size_t, 2>{2 * nodes, 2 * nodes}));
+  std::size_t calls = 0;
+  options.progress = [&](std::size_t, std::size_t) {
+    ++calls;
+    throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(Level_cells(soup, options), std::runtime_error);
+  EXPECT_EQ(calls, 1u);
   // Of boxes that are given first.
   options.tree = even_boxes(soup, {3, 2, 4});
   std::size_t of_boxes = 0;
   options.progress = [&](std::size_t, std::size_t all) {
     of_boxes = all;
-    throw std::domain_error("enough");
+    throw std::runtime_error("enough");
   };
-  EXPECT_THROW(Level_cells(soup, options), std::domain_error);
+  EXPECT_THROW(Level_cells(soup, options), std::runtime_error);
   EXPECT_EQ(of_boxes, options.tree.nodes.size());
 }
 

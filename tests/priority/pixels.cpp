@@ -321,6 +321,18 @@ TEST(Pixel_sets, of_an_empty_scene_or_image_are_empty) {
   EXPECT_EQ(listed(pixel_sets(one.relation, empty)), (Pixels{{0}}));
 }
 
+TEST(Pixel_sets, ask_before_each_row_and_end_by_what_that_throws) {
+  const Related one(soup_of({rectangle(-1, 1, -1, 1, 0)}));
+  const Pixel_view view{at(0, 0, 4), {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 40, 40};
+  std::size_t asked = 0;
+  const Pixel_sets sets = pixel_sets(one.relation, view, [&] { ++asked; });
+  EXPECT_TRUE(same_sets(sets, listed(pixel_sets(one.relation, view))));
+  EXPECT_GE(asked, 10u);  // a quarter of the image is covered
+  EXPECT_LE(asked, 14u);
+  const auto enough = [] { throw std::runtime_error("enough"); };
+  EXPECT_THROW(pixel_sets(one.relation, view, enough), std::runtime_error);
+}
+
 TEST(Pixel_sets, are_the_same_under_other_exact_kernels) {
   std::size_t members = 0;
   for (std::uint64_t k = 0; k < 80; ++k) {

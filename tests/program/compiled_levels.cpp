@@ -337,4 +337,16 @@ TEST_F(Compiled_levels, a_copy_has_the_exact_table) {
   EXPECT_EQ(leaves["refuted"], 0);
 }
 
+TEST_F(Compiled_levels, from_standard_input_are_compiled_levels_all_the_same) {
+  const std::string wrong = level("wrong.bsp", {0x0f, 0x0b, 0x0d, 0x0f}), copy = path("copy.bsp").string(),
+                    same = path("same.bsp").string();
+  ASSERT_EQ(run({"pvs", wrong, "--out", copy}).code, done);
+  const Json by_name = compared(wrong);
+  input_ = wrong;
+  ASSERT_EQ(run({"pvs", "-", "--out", same}).code, done);
+  EXPECT_EQ(read_file(same), read_file(copy));
+  EXPECT_EQ(run({"cells", "-", "--leaves"}).code, done);
+  EXPECT_EQ(compared("-")["refuted"], by_name["refuted"]);
+}
+
 }  // namespace program

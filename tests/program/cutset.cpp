@@ -123,6 +123,44 @@ TEST_F(Cutset, finds_the_order_of_tests_with_the_fewest_expected) {
             "392/197");  // face 2 first: one test for {1}, two for the others
 }
 
+TEST_F(Cutset, a_likelihood_may_name_any_face_of_those_that_hang_together_in_one_plane) {
+  const std::string halves =
+      file("halves.off",
+           "OFF\n8 12 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n3 0 3 2\n3 0 2 1\n3 4 5 6\n3 4 6 7\n"
+           "3 0 1 5\n3 0 5 4\n3 3 7 6\n3 3 6 2\n3 0 4 7\n3 0 7 3\n3 1 2 6\n3 1 6 5\n");
+  const auto views = [&](const std::string& lines) {
+    return cutset(
+        {halves, "--decision-tree", "--likelihood", file("likely.csv", lines)})["result"]["decision_tree"]["views"];
+  };
+  const Json by_first = views("1,0\n1,2,8\n");
+  EXPECT_EQ(by_first.size(), 2u);
+  EXPECT_EQ(views("1,1\n1,9,3\n"), by_first);
+  EXPECT_EQ(views("1,0,1\n1,2,3,8,9\n"), by_first);
+  refused({"cutset", halves, "--decision-tree", "--likelihood", file("more.csv", "1,12\n")}, bad_input, "more.csv:1:1");
+}
+
+TEST_F(Cutset, a_decision_tree_keeps_to_its_budget) {
+  const std::string many = path("many.qoff").string();
+  ASSERT_EQ(run({"generate", "triangles", "--size", "20", "--seed", "3", "--out", many}).code, done);
+  refused({"cutset", many, "--decision-tree", "--budget", "1e-6"}, undecided, "budget");
+}
+
+TEST_F(Cutset, what_is_of_a_path_or_of_a_picture_is_refused_without_one) {
+  const std::string svg = path("none.svg").string();
+  for (const std::vector<std::string>& given : std::vector<std::vector<std::string>>{
+           {"--svg", svg}, {"--html", svg + ".html"}, {"--faces"}, {"--check"}, {"--method", "1977"}}) {
+    std::vector<std::string> words{"cutset", cube, "--decision-tree"};
+    words.insert(words.end(), given.begin(), given.end());
+    refused(words, usage, given[0] + " is of a path");
+  }
+  for (const std::vector<std::string>& given :
+       std::vector<std::vector<std::string>>{{"--size", "300x300"}, {"--background", "red"}, {"--shade", "none"}})
+    refused({"cutset", cube, "--orbit", "3", given[0], given[1]}, usage, given[0] + " is of a picture");
+  const std::string eyes = file("eyes.csv", "5,0.5,0.5\n");
+  for (const char* option : {"--radius", "--height"})
+    refused({"cutset", cube, "--path", eyes, option, "4"}, usage, std::string(option) + " is of an orbit");
+}
+
 TEST_F(Cutset, wrong_arguments_are_usage_errors) {
   refused({"cutset", cube}, usage, "--orbit");
   refused({"cutset", cube, "--orbit", "3", "--decision-tree"}, usage, "--decision-tree");

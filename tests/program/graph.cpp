@@ -145,7 +145,8 @@ TEST_F(Graph, wrong_arguments_are_usage_errors) {
                                                 {"--method", "guess"},
                                                 {"--eye", "0,0,9", "--certificate", "x.json"},
                                                 {"--method", "explicit", "--certificate", "x.json"},
-                                                {"--region", ""}}) {
+                                                {"--region", ""},
+                                                {"--region", " "}}) {
     std::vector<std::string> arguments{"graph", cube};
     arguments.insert(arguments.end(), wrong.begin(), wrong.end());
     const Outcome r = run(arguments);

@@ -9,6 +9,7 @@
 #include <iomanip>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -251,6 +252,25 @@ TEST_F(Levels, what_stands_on_a_brush_is_in_the_room_beside_it) {
   EXPECT_NE(nothing.err.find("nothing is known of leaks"), std::string::npos) << nothing;
 }
 
+TEST_F(Levels, of_no_face_that_is_kept_have_a_picture) {
+  const std::string flat = file("flat.off", "OFF\n3 1 0\n0 0 0\n1 1 1\n2 2 2\n3 0 1 2\n");
+  const Outcome drawn = run({"pvs", flat, "--show", "0", "--svg", out("flat.svg")});
+  EXPECT_EQ(drawn.code, done) << drawn;
+  EXPECT_NE(bytes_of("flat.svg").find("<svg"), std::string::npos);
+}
+
+TEST_F(Levels, from_standard_input_are_levels_all_the_same) {
+  input_ = file("leak.map", without_brush(rooms, 1));
+  EXPECT_EQ(run({"cells", "-", "--seal", "entities"}).code, disagreement);
+  const Outcome refused = run({"pvs", "-"});
+  EXPECT_EQ(refused.code, bad_input) << refused;
+  EXPECT_NE(refused.err.find("there is a way out from info_player_start"), std::string::npos) << refused;
+  EXPECT_EQ(run({"pvs", "-", "--outside"}).code, done);
+  input_ = rooms;
+  EXPECT_EQ(run({"cells", "-", "--seal", "entities"}).code, done);
+  EXPECT_EQ(run({"pvs", "-", "--leaves"}).code, usage);  // not a compiled one
+}
+
 TEST_F(Levels, a_table_that_is_there_is_shown_and_written_without_being_asked_again) {
   for (const char* shard : {"0/2", "1/2"})
     ASSERT_EQ(run({"pvs", rooms, "--grid", "3,2,1", "--cells-too", "--shard", shard, "--out",
@@ -468,6 +488,25 @@ TEST_F(Levels, what_a_budget_left_open_is_asked_again_and_nothing_else) {
   EXPECT_EQ(last.json()["result"]["blocks_kept"], count);
   EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
   EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
+}
+
+TEST_F(Levels, certificates_that_there_is_no_time_for_leave_all_faces_undecided) {
+  const std::string house = path("house.off").string();
+  ASSERT_EQ(run({"generate", "rooms", "--size", "1", "--seed", "3", "--out", house}).code, done);
+  ASSERT_EQ(run({"pvs", house, "--out", out("whole.pvs")}).code, done);
+  std::size_t faces = 0;
+  for (double seconds = sanitized ? 0.1 : 0.01; !std::filesystem::exists(path("proofs/index.json")); seconds *= 1.3) {
+    const Outcome r = run({"pvs", house, "--table", out("whole.pvs"), "--certificates", out("proofs"), "--budget",
+                           std::to_string(seconds), "--json", "-"});
+    ASSERT_EQ(r.code, undecided) << r;  // at first there is no time for the cells
+    if (!r.out.empty()) faces = r.json()["result"]["faces"];
+  }
+  std::vector<std::uint32_t> all(faces);
+  std::iota(all.begin(), all.end(), 0u);
+  const Json last = Json::parse(bytes_of("proofs/index.json"))["cells"].back();
+  EXPECT_EQ(Json::parse(bytes_of("proofs/" + last["certificate"].get<std::string>()))["undecided"], Json(all));
+  EXPECT_FALSE(last.contains("sum"));
+  EXPECT_EQ(run({"verify", house, out("proofs")}).code, done);
 }
 
 TEST_F(Levels, a_cell_that_is_not_asked_about_is_refused_before_the_work) {
