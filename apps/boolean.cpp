@@ -437,7 +437,7 @@ void add_boolean(Command program) {
           "write the result's surface: .qoff holds it exactly; so do the others where all coordinates are finite "
           "decimals")
       .writes_file()
-      .check(solid_ending());
+      .check(surface_ending());
   command
       .add_option(
           "--certificate", a->certificate,

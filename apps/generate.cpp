@@ -1,6 +1,7 @@
 // sightline generate: scenes from a seed, degenerate as much as one wants, and what may be asked of them.
 
 #include "support/common.h"
+#include "support/solid_file.h"
 
 #include <sightline/harness/generate/solids.h>
 #include <sightline/harness/laws/query_json.h>
@@ -102,15 +103,21 @@ void add_generate(Command program) {
   command.add_option("--size", a->size, "how large; 0: the family's own").check(whole_number()).show_default();
   command.add_option("--seed", a->seed, "of random choices").check(whole_number()).show_default();
   command
-      .add_option("--ulps", a->ulps,
-                  "how far beside its degeneracy, in units of 2^-52 of the scene's size; far: 2^44 of them")
+      .add_option(
+          "--ulps", a->ulps,
+          "how far beside its degeneracy, in units of 2^-52 of the scene's size; far: 2^44 of them, -far: as many "
+          "the other way")
       .show_default();
   command.add_option("--offset", a->offset, "X,Y,Z added to all points, exact decimals or p/q").show_default();
   command.add_option("--scale", a->scale, "multiplies all coordinates, before --offset: a number or 2^K")
       .show_default();
-  command.add_option("--out", a->out, "the file to write: .off .obj .ply .stl .qoff").required().writes_file();
+  command.add_option("--out", a->out, "the file to write: .off .obj .ply .stl .qoff")
+      .required()
+      .writes_file()
+      .check(surface_ending());
   command.add_option("--second", a->second, "of a pair, write the second solid to this file, and the first to --out")
-      .writes_file();
+      .writes_file()
+      .check(surface_ending());
   command.add_option("--query", a->query, "write the eye, the source polygon and what is known of its answers, as JSON")
       .writes_file();
   command.footer(list_of_families() +

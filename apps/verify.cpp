@@ -119,7 +119,9 @@ static Exit run_folder(const Common& common, const std::string& folder, const Ch
   for (const Cell_entry& entry : cells) level.push_back({entry.cell, entry.statement.walls, true, {}, {}});
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     progress(i, chosen.size());
-    if (limit.is_over()) throw Out_of_budget(fmt::format("the budget ran out after {} of {} cells", i, chosen.size()));
+    if (limit.is_over())
+      throw Out_of_budget(
+          fmt::format("undecided: the budget of {} s ran out after {} of {} cells", limit.seconds(), i, chosen.size()));
     const Cell_entry& entry = cells[chosen[i]];
     std::ifstream in = open_bytes(entry.file);
     const Certificate certificate = certificate_of(in, entry.file);

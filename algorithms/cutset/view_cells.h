@@ -121,7 +121,7 @@ Rational short_step(std::span<const Form<dimension>> forms, const Point<dimensio
 /// a new one cuts are those that meet it, and it meets them in the open cells of the earlier ones within it. Proof:
 /// P-52
 template <std::size_t dimension>
-Cells<dimension> open_cells(std::span<const Form<dimension>> forms, const std::function<void()>& ask) {
+Cells<dimension> open_cells(std::span<const Form<dimension>> forms, const std::function<void()>& ask = {}) {
   Cells<dimension> cells;
   cells[0] = Point<dimension>{};
   for (std::size_t k = 0; k < forms.size(); ++k) {
@@ -162,7 +162,7 @@ Cells<dimension> open_cells(std::span<const Form<dimension>> forms, const std::f
 /// P-52
 template <std::size_t dimension>
 Cells<dimension> all_cells(std::span<const Form<dimension>> forms, std::size_t first,
-                           const std::function<void()>& ask) {
+                           const std::function<void()>& ask = {}) {
   Cells<dimension> cells = open_cells<dimension>(forms, ask);
   if (cells.contains(0)) return cells;
   if constexpr (dimension > 0)

@@ -3,6 +3,7 @@
 #include "../support/limited_process.h"
 #include "../support/page.h"
 #include "../support/query.h"
+#include "../support/solid_file.h"
 
 #include <sightline/harness/laws/reduce.h>
 #include <sightline/io/read.h>
@@ -67,9 +68,7 @@ Exit run(const Reduce_arguments& arguments) {
     throw Usage_error(
         "the program's words hold no {}, which stands for the scene: sightline reduce SCENE --out FILE -- PROGRAM {}");
   if (names("{query}") && arguments.query.empty()) throw Usage_error("the program's words hold {query}; give --query");
-  const std::optional<Format> format = format_of_ending(arguments.out);
-  if (!format)
-    throw Usage_error("--out " + arguments.out + ": no format has this ending; give one of " + supported_formats);
+  const Format format = format_of_ending(arguments.out).value();
   const std::string reduced_query = std::filesystem::path(arguments.out).replace_extension(".json").string();
   if (!arguments.query.empty())
     check_files({{"SCENE", arguments.scene}, {"--query", arguments.query}},
@@ -92,7 +91,7 @@ Exit run(const Reduce_arguments& arguments) {
         word.replace(at, mark.size(), file);
   const auto code_for = [&](const generate::Posed_scene& smaller) -> int {
     std::ostringstream text;
-    write_scene(smaller.soup, text, *format);
+    write_scene(smaller.soup, text, format);
     write_temporary(scene_file, text.view());
     if (!arguments.query.empty())
       write_temporary(query_file, to_text(harness::query_json(smaller, query.seed), 1) + "\n");
@@ -119,7 +118,7 @@ Exit run(const Reduce_arguments& arguments) {
   options.most_tests = 1000000;
   options.out_of_time = [&] { return time.over(); };
   const harness::Reduced reduced = harness::reduce(scene, fails, options);
-  write_scene(reduced.scene.soup, arguments.out, *format);
+  write_scene(reduced.scene.soup, arguments.out, format);
   if (!arguments.query.empty())
     write_file(reduced_query, to_text(harness::query_json(reduced.scene, query.seed), 1) + "\n");
   if (!arguments.html.empty()) write_page(arguments, reduced.scene, scene.soup.face_count(), !arguments.query.empty());
@@ -146,7 +145,8 @@ void add_reduce(Command program) {
       .required();
   command.add_option("--out", a->out, "the file to write; the program gets scenes with the same ending")
       .required()
-      .writes_file();
+      .writes_file()
+      .check(surface_ending());
   command
       .add_option("--query", a->query,
                   "what is asked of the scene, as `generate --query` writes it: reduced with the scene, and "

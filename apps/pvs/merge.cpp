@@ -7,6 +7,8 @@
 
 #include <sightline/io/file.h>
 
+#include <algorithm>
+
 namespace sightline::app {
 
 namespace {
@@ -23,6 +25,8 @@ Exit run_merge(const Merge_arguments& arguments) {
         "--cells-too into a copy of the level");
   std::vector<Visibility_table> parts;
   for (const std::string& file : arguments.parts) {
+    if (std::count(arguments.parts.begin(), arguments.parts.end(), file) > 1)
+      throw Usage_error("PARTS: " + file + " is named twice; name each part once");
     const std::string bytes = read_input(file);
     parts.push_back(read_table({file, bytes}));
   }

@@ -255,7 +255,7 @@ void add_shadow(Command program) {
           "write the space in the shadow of one light as a closed surface: .qoff holds it exactly, other formats "
           "rounded so that nothing breaks, where that can be")
       .writes_file()
-      .check(solid_ending());
+      .check(surface_ending());
   add_mesh_option(command, a->mesh, "the parts lit, in shadow and turned away,");
   command
       .add_option("--obj", a->obj, "the same as OBJ; groups are light-0-lit and so on where there are several lights")

@@ -9,7 +9,7 @@
 
 namespace sightline::app {
 
-Check solid_ending() {
+Check surface_ending() {
   return none_of([](const std::string& name) {
     switch (format_of_ending(name).value_or(Format::map)) {
       case Format::obj:
@@ -23,7 +23,7 @@ Check solid_ending() {
       case Format::glb:
       case Format::gltf: break;
     }
-    return name + " does not end as a format that holds surfaces does: .qoff .obj .off .ply .stl";
+    return name + " does not end as a format that holds surfaces does; name a file .qoff .obj .off .ply .stl";
   });
 }
 

@@ -11,8 +11,8 @@
 
 namespace sightline::app {
 
-/// The name of a file that write_solid can write.
-Check solid_ending();
+/// The name of a file that a surface can be written to.
+Check surface_ending();
 
 /// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, or snapped in so
 /// many rounds at most, which is returned. Pre: no holes. Errors: as write_scene. `progress` is told of rounding; what

@@ -110,9 +110,17 @@ TEST_F(Generate, sizes_that_make_no_sense_are_usage_errors_at_once) {
 }
 
 TEST_F(Generate, an_unknown_ending_is_told) {
-  const Outcome r = run({"generate", "stacked", "--out", path("a.xyz").string()});
-  EXPECT_TRUE(r.code == usage || r.code == bad_input) << r;
-  EXPECT_TRUE(r.one_line_of_error()) << r;
+  const std::string known = path("a.off").string();
+  ASSERT_EQ(run({"generate", "stacked", "--out", known}).code, done);
+  for (const std::string& unknown : {path("a.xyz").string(), path("a.map").string(), std::string("-")})
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"generate", "stacked", "--out", unknown},
+                                                  {"generate", "solids_touching", "--out", known, "--second", unknown},
+                                                  {"reduce", known, "--out", unknown, "--", "false", "{}"}}) {
+      const Outcome r = run(words);
+      EXPECT_EQ(r.code, usage) << r;
+      EXPECT_TRUE(r.one_line_of_error()) << r;
+      EXPECT_NE(r.err.find(".qoff"), std::string::npos) << r;
+    }
 }
 
 }  // namespace program

@@ -46,8 +46,11 @@ TEST_F(Levels, tables_that_announce_many_faces_are_merged_in_little_memory) {
   store(0);
   store(runs * 255 * 8);
   for (std::uint32_t k = 0; k < runs; ++k) bytes += std::string("\0\xFF", 2);
-  const std::string part = file("part.pvs", bytes);
-  const Outcome r = run({"merge", part, part, "--out", out("t.pvs")}, {60, 300});
+  const std::string part = file("part.pvs", bytes), other = file("other.pvs", bytes);
+  const Outcome twice = run({"merge", part, other, part, "--out", out("t.pvs")});
+  EXPECT_EQ(twice.code, usage) << twice;
+  EXPECT_NE(twice.err.find("part.pvs is named twice"), std::string::npos) << twice;
+  const Outcome r = run({"merge", part, other, "--out", out("t.pvs")}, {60, 300});
   EXPECT_EQ(r.code, bad_input) << r;
   EXPECT_NE(r.err.find("face 0 and " + std::to_string(runs * 255 * 8 - 1) + " more are in no part"), std::string::npos)
       << r;
