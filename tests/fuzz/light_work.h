@@ -2,10 +2,9 @@
 // What is easily answered takes little: scenes of families are decided within their first cells, lines that doubles
 // propose are hardly ever refuted, and where nothing or one plate is between two polygons neither cells nor events are
 // looked at; hundreds of edges of one piece are decided in one path; rays open few boxes of what lies apart, and rooms
-// apart take few planes; pieces of one plane are as few as they can be. A shortcut that is idle changes no answer; a
-// search that misses a proof leaves faces undecided.
+// apart take few planes. A shortcut that is idle changes no answer; a search that misses a proof leaves faces
+// undecided.
 
-#include "merged.h"
 #include "one_edge.h"
 
 #include <sightline/algorithms/levels/volumes.h>
@@ -305,10 +304,9 @@ inline void try_rooms_with_few_nodes(Random& random) {
 
 inline void light_work(std::string_view bytes) {
   Bytes from(bytes);
-  const std::size_t kind = from.below(13);
+  const std::size_t kind = from.below(12);
   Random random(from.word());
-  if (kind == 12) try_merged_pieces(random);
-  else if (kind == 11) try_nothing_between(random);
+  if (kind == 11) try_nothing_between(random);
   else if (kind == 10) try_parts_of_a_wall(random);
   else if (kind == 9) try_many_edges(random);
   else if (kind == 8) try_many_behind_a_plate(random);

@@ -3,6 +3,7 @@
 // motions of directions, numbers below the least normal one, corners that are hardly straight, faces within a volume,
 // edges of concave faces with a fin, faces given thrice, loops that come back, surfaces that wind round twice.
 
+#include "merged.h"
 #include "soups.h"
 #include "support.h"
 
@@ -567,23 +568,12 @@ inline void try_quoted(generate::Random& random) {
 }
 
 inline void small_promises(std::string_view bytes) {
-  static constexpr std::array<void (*)(generate::Random&), 17> laws{try_mirrored_stars,
-                                                                    try_both_orders,
-                                                                    try_exact_planes,
-                                                                    try_boxes_on_a_segment,
-                                                                    try_units_of_a_prime,
-                                                                    try_roots,
-                                                                    try_nearest_doubles,
-                                                                    try_rounded_planes,
-                                                                    try_common_inside,
-                                                                    try_motions,
-                                                                    try_straight_corners,
-                                                                    try_fins,
-                                                                    try_repeated_faces,
-                                                                    try_stars,
-                                                                    try_fine_origins,
-                                                                    try_seen_from_within,
-                                                                    try_quoted};
+  static constexpr std::array<void (*)(generate::Random&), 18> laws{
+      try_mirrored_stars,   try_both_orders,  try_exact_planes,     try_boxes_on_a_segment,
+      try_units_of_a_prime, try_roots,        try_nearest_doubles,  try_rounded_planes,
+      try_common_inside,    try_motions,      try_straight_corners, try_fins,
+      try_repeated_faces,   try_stars,        try_fine_origins,     try_seen_from_within,
+      try_quoted,           try_merged_pieces};
   ask_one_of(laws, bytes);
 }
 
