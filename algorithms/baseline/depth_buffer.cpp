@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace sightline {
 
@@ -39,7 +40,8 @@ Planes planes_of(const Depth_buffer_options& options, double nearest, double far
   planes.drawable =
       planes.near > 0 && planes.far > planes.near && std::isfinite(planes.far) && std::isfinite(1 / planes.near);
   if (!planes.drawable && (options.near != 0 || options.far != 0))
-    throw std::invalid_argument("a near plane is in front of the eye, and a far one behind it");
+    throw std::invalid_argument("a near plane at " + std::to_string(planes.near) + " and a far one at " +
+                                std::to_string(planes.far) + ": both are in front of the eye, the far one farther");
   return planes;
 }
 

@@ -54,7 +54,7 @@ int size_bits(const Polygon_soup& soup) {
 }
 
 Posed_scene with_an_eye(view_drafts::Made made, const Family_parameters& parameters, Random& random) {
-  require(parameters.size <= 1000000, "at most 10^6 faces");
+  require(parameters.size <= 1000000, "size: at most 10^6 faces");
   while (made.faces.size() < parameters.size) made.faces.push_back(any_face(random));
   Posed_scene scene;
   scene.soup = soup_of(made.faces);
@@ -74,7 +74,7 @@ Posed_scene nudged(view_drafts::Made made, const Family_parameters& parameters, 
 }
 
 Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& random) {
-  require(parameters.size <= 1000000, "at most 10^6 faces");
+  require(parameters.size <= 1000000, "size: at most 10^6 faces");
   const Rational gap = ulps_of_size(parameters.ulps, small_bits);
   std::vector<Holed_face> holed;
   for (std::size_t count = 1 + random.below(3); count > 0; --count) holed.push_back(twisted_holes(random, gap));
@@ -93,7 +93,7 @@ Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& rand
 }
 
 Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Family_parameters& parameters, Random& random) {
-  require(parameters.size <= 1000000, "at most 10^6 faces");
+  require(parameters.size <= 1000000, "size: at most 10^6 faces");
   weak_drafts::Draft draft = drafter.draft(random, ulps_of_size(parameters.ulps, small_bits));
   const std::size_t own = draft.faces.size();
   while (draft.faces.size() < parameters.size)
@@ -118,7 +118,7 @@ Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Family_para
 
 Posed_scene of_two_solids(const touching_solids::Drafter& drafter, const Family_parameters& parameters,
                           Random& random) {
-  require(parameters.size <= 1000000, "at most 10^6 faces");
+  require(parameters.size <= 1000000, "size: at most 10^6 faces");
   Solid_pair pair = drafter.draft(random, ulps_of_size(parameters.ulps, touching_solids::bits));
   touching_solids::enlarge(pair, parameters.size);
   Posed_scene scene;
