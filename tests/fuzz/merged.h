@@ -6,6 +6,7 @@
 
 #include <sightline/algorithms/weak_visibility/partition/merged_occluders.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/flat_faces.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
 
@@ -21,12 +22,9 @@ namespace fuzz {
 inline Rational twice_area_ahead(const Polygon_soup& soup, const Exact_point& ahead) {
   Rational sum = 0;
   for (Face_id f = 0; f < soup.face_count(); ++f) {
-    const auto loop = soup.loop(f);
-    Rational twice = 0;
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-      twice += dot(ahead, cross(minus(soup.point(loop[k]), soup.point(loop[0])),
-                                minus(soup.point(loop[k + 1]), soup.point(loop[0]))));
-    sum += abs(twice);
+    std::vector<Exact_point> corners;
+    for (const Point_id p : soup.loop(f)) corners.push_back(soup.point(p));
+    sum += abs(Rational(dot(ahead, harness::Flat_face(corners).normal)));
   }
   return sum;
 }
