@@ -33,13 +33,9 @@ std::optional<Side> side_through(const std::array<Exact_point, 3>& points) {
   const Exact_point normal = cross(minus(points[0], points[1]), minus(points[2], points[1]));
   if (is_zero(normal)) return std::nullopt;
   const std::array<Rational, 4> row{normal[0], normal[1], normal[2], dot(normal, points[1])};
-  Integer denominators = 1, common = 0;
-  for (const Rational& value : row) denominators = lcm(denominators, value.get_den());
-  std::array<Integer, 4> whole;
-  for (std::size_t k = 0; k < 4; ++k) {
-    whole[k] = Rational(row[k] * denominators).get_num();
-    common = gcd(common, whole[k]);
-  }
+  std::array<Integer, 4> whole = Over_common(row).whole;
+  Integer common = 0;
+  for (const Integer& value : whole) common = gcd(common, value);
   for (Integer& value : whole) value /= common;
   return Side{{whole[0], whole[1], whole[2]}, whole[3], true};
 }

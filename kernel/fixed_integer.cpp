@@ -1,6 +1,7 @@
 #include <sightline/kernel/fixed_integer.h>
 
-#include <cmath>
+#include <sightline/kernel/number.h>
+
 #include <cstddef>
 #include <stdexcept>
 
@@ -34,9 +35,7 @@ double approximate(const Limb* limbs, int count, long shift) {
   if (count == 1 && shift == 0) return static_cast<double>(static_cast<std::int64_t>(limbs[0]));
   if (count == 2 && shift == 0)
     return static_cast<double>(static_cast<__int128>((static_cast<unsigned __int128>(limbs[1]) << 64) | limbs[0]));
-  long exponent = 0;
-  const double mantissa = mpz_get_d_2exp(&exponent, from_limbs(limbs, count).get_mpz_t());  // truncates
-  return std::ldexp(mantissa, static_cast<int>(exponent - shift));
+  return cut_off(from_limbs(limbs, count), shift);
 }
 
 }  // namespace sightline

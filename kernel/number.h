@@ -3,6 +3,8 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -44,6 +46,37 @@ inline long binary_exponent(const Rational& x) {
 
 /// x 2^exponent. Exact: yes.
 Rational times_power(Rational x, long exponent);
+
+/// n / 2^shift, cut off towards zero to the bits of a double: where doubles hold it, within 2^-52 of itself.
+inline double cut_off(const Integer& n, long shift = 0) {
+  long exponent = 0;
+  const double mantissa = mpz_get_d_2exp(&exponent, n.get_mpz_t());  // 1/2 <= |mantissa| < 1, or n is 0
+  return std::ldexp(mantissa, static_cast<int>(std::clamp(exponent - shift, -5000L, 5000L)));
+}
+
+/// Integers up to a positive factor, the longest between 1/2 and 1 in magnitude, each within 2^-52 of its own value and
+/// of the sign of what it stands for, or 0. Degenerate: zeros of zeros.
+template <std::size_t n>
+std::array<double, n> in_proportion(const std::array<Integer, n>& values) {
+  std::size_t bits = 0;
+  for (const Integer& x : values) bits = std::max(bits, bit_length(x));
+  std::array<double, n> rounded;
+  for (std::size_t k = 0; k < n; ++k) rounded[k] = cut_off(values[k], static_cast<long>(bits));
+  return rounded;
+}
+
+/// Rationals over their least common denominator: the k-th is whole[k] / denominator.
+template <std::size_t n>
+struct Over_common {
+  std::array<Integer, n> whole;
+  Integer denominator = 1;
+
+  explicit Over_common(const std::array<Rational, n>& values) {
+    for (const Rational& x : values)
+      if (x.get_den() != denominator) denominator = lcm(denominator, x.get_den());
+    for (std::size_t k = 0; k < n; ++k) whole[k] = values[k].get_num() * Integer(denominator / values[k].get_den());
+  }
+};
 
 /// The root of a rational, wherever doubles hold the root, to two units in its last place; +infinity beyond. Pre: it is
 /// not negative.

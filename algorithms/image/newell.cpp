@@ -46,15 +46,8 @@ Factor<Number> factor(std::array<Number, 4> values) {
   if constexpr (is_rounded<Number>) {
     return {values};
   } else {
-    std::size_t bits = 0;
-    for (const Integer& x : values) bits = std::max(bits, bit_length(x));
-    Factor<Integer> made{std::move(values), {}};
-    for (std::size_t k = 0; k < 4; ++k) {
-      long exponent = 0;
-      const double mantissa = mpz_get_d_2exp(&exponent, made.values[k].get_mpz_t());
-      made.near[k] = std::ldexp(mantissa, static_cast<int>(std::max(exponent - static_cast<long>(bits), -5000L)));
-    }
-    return made;
+    const std::array<double, 4> near = in_proportion(values);
+    return {std::move(values), near};
   }
 }
 template <class Number>
@@ -116,16 +109,6 @@ double quotient(const Number& a, const Number& b) {
   }
 }
 
-/// Integers in the proportions of some rationals.
-template <std::size_t n>
-std::array<Integer, n> integers(const std::array<Rational, n>& v) {
-  Integer divisor = 1;
-  for (const Rational& x : v) divisor = lcm(divisor, x.get_den());
-  std::array<Integer, n> made;
-  for (std::size_t k = 0; k < n; ++k) made[k] = Rational(v[k] * divisor).get_num();
-  return made;
-}
-
 /// Linear forms of directions: with those of look, right and up 1 or 0, times one positive factor.
 template <class Number>
 struct Image_axes {
@@ -144,7 +127,7 @@ struct Image_axes {
         all[k + 3] = exact(pixels.right[k]);
         all[k + 6] = exact(pixels.up[k]);
       }
-      const std::array<Integer, 9> scaled = integers(all);
+      const std::array<Integer, 9> scaled = Over_common(all).whole;
       look = {scaled[0], scaled[1], scaled[2]};
       right = {scaled[3], scaled[4], scaled[5]};
       up = {scaled[6], scaled[7], scaled[8]};
@@ -238,7 +221,7 @@ class Newell {
         corners_[i] = corner({arm[0], arm[1], arm[2], 1});
       } else {
         const Exact_point arm = minus(p, pixels_.eye);
-        corners_[i] = corner(integers<4>({arm[0], arm[1], arm[2], 1}));
+        corners_[i] = corner(Over_common<4>({arm[0], arm[1], arm[2], 1}).whole);
       }
     });
   }
@@ -290,7 +273,7 @@ class Newell {
       const std::array<Rational, 4> h = scene_.file_coefficients(piece.support);
       const Exact_point& e = pixels_.eye;
       const std::array<Integer, 4> scaled =
-          integers<4>({h[0], h[1], h[2], -(h[0] * e[0] + h[1] * e[1] + h[2] * e[2] + h[3])});
+          Over_common<4>({h[0], h[1], h[2], -(h[0] * e[0] + h[1] * e[1] + h[2] * e[2] + h[3])}).whole;
       normal = {scaled[0], scaled[1], scaled[2]};
       at_plane = scaled[3];
       if (at_plane == 0) return std::nullopt;

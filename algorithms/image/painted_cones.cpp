@@ -1,6 +1,7 @@
 #include <sightline/algorithms/image/painted_cones.h>
 
 #include <sightline/algorithms/image/number_cones.h>
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/threads.h>
 #include <sightline/kernel/vectors.h>
 
@@ -15,20 +16,9 @@ namespace {
 
 /// A vector in doubles, as in Approximate_eye_plane; scaled, so that it is in their range.
 Approximate_eye_plane approximated(const std::array<Integer, 3>& n) {
-  const long bits = static_cast<long>(std::max({bit_length(n[0]), bit_length(n[1]), bit_length(n[2])}));
-  const auto scaled = [&](const Integer& x) {
-    long exponent = 0;
-    const double mantissa = mpz_get_d_2exp(&exponent, x.get_mpz_t());
-    return std::ldexp(mantissa, static_cast<int>(std::max(exponent - bits, -5000L)));
-  };
-  const std::array<double, 3> v{scaled(n[0]), scaled(n[1]), scaled(n[2])};
+  const std::array<double, 3> v = in_proportion(n);
   const double size = (std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2])) * (1 + 0x1p-50);
   return {v, size, 0x1p-52 * size + 0x1p-1060};
-}
-/// The integers of the same direction.
-std::array<Integer, 3> integers(const Exact_point& v) {
-  const Integer divisor = lcm(lcm(v[0].get_den(), v[1].get_den()), v[2].get_den());
-  return {Rational(v[0] * divisor).get_num(), Rational(v[1] * divisor).get_num(), Rational(v[2] * divisor).get_num()};
 }
 
 /// The cones of polygons in exact numbers: their edges' normals, inwards.
@@ -42,7 +32,7 @@ Exact_cone exact_cone(const Painted_polygon& polygon, const Exact_point& eye) {
   std::vector<Exact_point> arms;
   for (const Exact_point& p : polygon.corners) {
     arms.push_back(minus(p, eye));
-    cone.corners.push_back(integers(arms.back()));
+    cone.corners.push_back(Over_common(arms.back()).whole);
   }
   // A convex polygon has no three corners on a line next to each other, but for those of cuts.
   int sense = 0;

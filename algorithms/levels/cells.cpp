@@ -3,6 +3,7 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/query.h>
 #include <sightline/algorithms/levels/wall_polygon.h>
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/exact_traits.h>
@@ -92,11 +93,7 @@ class Given_tree {
     const Rational unit = scene.position(std::array<Integer, 4>{1, 0, 0, 1})[0] - origin[0];
     std::array<Rational, 4> h{plane[0] * unit, plane[1] * unit, plane[2] * unit, plane[3]};
     for (std::size_t k = 0; k < 3; ++k) h[3] += plane[k] * origin[k];
-    Integer common = 1;
-    for (const Rational& x : h) common = lcm(common, x.get_den());
-    std::array<Integer, 4> whole;
-    for (std::size_t k = 0; k < 4; ++k) whole[k] = h[k].get_num() * (common / h[k].get_den());
-    return whole;
+    return Over_common(h).whole;
   }
   Wall_polygon section_of(std::int32_t node, const std::vector<Plane>& within, Wall_cutter& cutter) const {
     const Plane own = planes_[static_cast<std::size_t>(node)];

@@ -1,6 +1,7 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/vectors.h>
 #include <sightline/kernel/vertex.h>
@@ -14,13 +15,9 @@ Predicates Exact_view::predicates() const { return scene_->predicates(); }
 
 Exact_view::Exact_view(const Scene& scene, const Sun& sun)
     : scene_(&scene), eye_point_(sun.direction), forms_(scene.pieces().size()) {
-  Integer common = 1;
-  for (const Rational& x : sun.direction) common = lcm(common, x.get_den());
-  std::array<Integer, 3> e;
-  for (std::size_t k = 0; k < 3; ++k) {
-    e[k] = sun.direction[k].get_num() * (common / sun.direction[k].get_den());
+  std::array<Integer, 3> e = Over_common(sun.direction).whole;
+  for (std::size_t k = 0; k < 3; ++k)
     if (sun_axis_ < 0 || abs(e[static_cast<std::size_t>(sun_axis_)]) < abs(e[k])) sun_axis_ = static_cast<int>(k);
-  }
   if (e[static_cast<std::size_t>(sun_axis_)] == 0) throw std::invalid_argument("a sun needs a direction other than 0");
   if (scene.pieces().size() >= (std::size_t{1} << 28)) throw std::length_error("scenes of up to 2^28 pieces only");
   const Integer common_factor = gcd(gcd(e[0], e[1]), e[2]);
@@ -189,7 +186,7 @@ const Exact_view::Wide_direction& Exact_view::wide_direction(std::uint32_t point
             ? sun_direction<Integer>([&](int axis) { return points.integer(p, axis); }, {eye_.x, eye_.y, eye_.z})
             : Vector<Integer>{eye_.w * points.integer(p, 0) - eye_.x, eye_.w * points.integer(p, 1) - eye_.y,
                               eye_.w * points.integer(p, 2) - eye_.z};
-    return Wide_direction{d, {scaled(d[0], bits_), scaled(d[1], bits_), scaled(d[2], bits_)}};
+    return Wide_direction{d, {cut_off(d[0], bits_), cut_off(d[1], bits_), cut_off(d[2], bits_)}};
   });
 }
 
@@ -348,9 +345,7 @@ std::vector<std::array<Integer, 3>> field_of(const std::vector<Exact_point>& ray
     const Exact_point &a = rays[k], &b = rays[(k + 1) % n];
     Exact_point normal;
     for (std::size_t i = 0; i < 3; ++i) normal[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-    Integer common = lcm(lcm(normal[0].get_den(), normal[1].get_den()), normal[2].get_den());
-    std::array<Integer, 3>& row = normals.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) row[i] = normal[i].get_num() * (common / normal[i].get_den());
+    const std::array<Integer, 3>& row = normals.emplace_back(Over_common(normal).whole);
     for (std::size_t j = 0; j < n; ++j)
       if (j != k && j != (k + 1) % n &&
           sgn(Rational(row[0] * rays[j][0] + row[1] * rays[j][1] + row[2] * rays[j][2])) <= 0)

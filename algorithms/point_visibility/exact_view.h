@@ -227,18 +227,13 @@ class Exact_view {
     return h[0] * eye_.x + h[1] * eye_.y + h[2] * eye_.z + h[3] * eye_.w;
   }
 
-  static double scaled(const Integer& n, long shift) {
-    long exponent = 0;
-    const double mantissa = mpz_get_d_2exp(&exponent, n.get_mpz_t());
-    return std::ldexp(mantissa, static_cast<int>(std::clamp(exponent - shift, -5000L, 5000L)));
-  }
   /// A normal as doubles, each within 2^-52 of its own value.
   static Plane from(const Vector<__int128>& n) {
     return with_size(static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2]));
   }
   static Plane from(const Vector<Integer>& n) {
-    const long shift = static_cast<long>(std::max({bit_length(n[0]), bit_length(n[1]), bit_length(n[2])}));
-    return with_size(scaled(n[0], shift), scaled(n[1], shift), scaled(n[2], shift));
+    const std::array<double, 3> near = in_proportion(n);
+    return with_size(near[0], near[1], near[2]);
   }
   static Plane with_size(double x, double y, double z) {
     const double size = magnitude(x, y, z);

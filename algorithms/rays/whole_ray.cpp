@@ -1,6 +1,7 @@
 #include <sightline/algorithms/rays/whole_ray.h>
 
 #include <sightline/kernel/located_point.h>
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/predicates.h>
 
@@ -82,14 +83,11 @@ const Whole_ray::Whole& Whole_ray::whole() {
   Located_point from = scene_.locate(ray.origin);
   whole_->origin = {std::move(from.x), std::move(from.y), std::move(from.z)};
   whole_->weight = std::move(from.w);
-  whole_->denominator = 1;
   Exact_point direction;
-  for (std::size_t k = 0; k < 3; ++k) {
-    direction[k] = ray.direction[k] / grid_.step();
-    whole_->denominator = lcm(whole_->denominator, direction[k].get_den());
-  }
-  for (std::size_t k = 0; k < 3; ++k)
-    whole_->direction[k] = direction[k].get_num() * (whole_->denominator / direction[k].get_den());
+  for (std::size_t k = 0; k < 3; ++k) direction[k] = ray.direction[k] / grid_.step();
+  Over_common over(direction);
+  whole_->direction = std::move(over.whole);
+  whole_->denominator = std::move(over.denominator);
   return *whole_;
 }
 

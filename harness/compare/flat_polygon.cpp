@@ -1,5 +1,7 @@
 #include <sightline/harness/compare/flat_polygon.h>
 
+#include <sightline/kernel/number.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -74,9 +76,8 @@ Rational Flat_polygon::area() const {
 }
 
 Flat_polygon::Flat_line Flat_polygon::line_through(const Point& p, const Point& q) {
-  const Rational a = p[1] - q[1], b = q[0] - p[0], c = -(a * p[0] + b * p[1]);
-  const Integer common = lcm(lcm(a.get_den(), b.get_den()), c.get_den());
-  Flat_line line{Integer(a * common), Integer(b * common), Integer(c * common)};
+  const Rational a = p[1] - q[1], b = q[0] - p[0];
+  Flat_line line = Over_common<3>({a, b, Rational(-(a * p[0] + b * p[1]))}).whole;
   const Integer divisor = gcd(gcd(line[0], line[1]), line[2]);
   for (Integer& x : line) x /= divisor;
   return line;

@@ -1,5 +1,6 @@
 #include <sightline/harness/compare/pixel_squares.h>
 
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -13,10 +14,7 @@ namespace {
 using Flat_line = Flat_polygon::Flat_line;
 
 /// The line with the values of a form, up to a positive factor.
-Flat_line flat_line(const std::array<Rational, 3>& form) {
-  const Integer common = lcm(lcm(form[0].get_den(), form[1].get_den()), form[2].get_den());
-  return {Integer(form[0] * common), Integer(form[1] * common), Integer(form[2] * common)};
-}
+Flat_line flat_line(const std::array<Rational, 3>& form) { return Over_common(form).whole; }
 
 template <class Number>
 Rational value(const std::array<Number, 3>& form, const Flat_polygon::Point& at) {

@@ -1,5 +1,6 @@
 #include <sightline/harness/compare/visible_errors.h>
 
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <iterator>
@@ -125,18 +126,7 @@ Ray_direction direction(const std::array<Rational, 3>& d) {
           nearest_double(Rational(d[2] / size))};
 }
 
-Ray_direction direction(const Exact_view& view, const Exact_view::Ray& r) {
-  const std::array<Integer, 3> d = view.direction(r);
-  long shift = 0;
-  for (const Integer& x : d) shift = std::max(shift, static_cast<long>(bit_length(x)));
-  Ray_direction to;
-  for (std::size_t k = 0; k < 3; ++k) {
-    long exponent = 0;
-    const double mantissa = mpz_get_d_2exp(&exponent, d[k].get_mpz_t());
-    to[k] = std::ldexp(mantissa, static_cast<int>(std::max(exponent - shift, -5000L)));
-  }
-  return to;
-}
+Ray_direction direction(const Exact_view& view, const Exact_view::Ray& r) { return in_proportion(view.direction(r)); }
 
 void Image::add(std::uint32_t piece, Image_polygon polygon) {
   Image_part part{piece, std::move(polygon), {1, 1}, {-1, -1}};

@@ -60,25 +60,28 @@ Outcome same_within(const Pixel_view& pixels, const Piece_image& truth, const Pi
   return {};
 }
 
-/// Whether the eye sees no corner on an edge's line, but where the edge ends in its own face. Pre: small numbers, of
-/// which doubles hold volumes.
+/// Whether the eye sees no corner of a piece on an edge's line, but where the edge ends in its own piece. Pre: small
+/// numbers, of which doubles hold volumes.
 bool is_in_general_position(const Seen& seen) {
-  const Polygon_soup& soup = seen.soup;
-  std::vector<std::array<double, 3>> at;
-  for (Point_id p = 0; p < soup.point_count(); ++p)
-    at.push_back({Rational(soup.point(p)[0] - seen.pixels.eye[0]).get_d(),
-                  Rational(soup.point(p)[1] - seen.pixels.eye[1]).get_d(),
-                  Rational(soup.point(p)[2] - seen.pixels.eye[2]).get_d()});
-  for (Face_id f = 0; f < soup.face_count(); ++f) {
-    const auto loop = soup.loop(f);
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Point_id from = loop[k], to = loop[(k + 1) % loop.size()];
-      const std::array<double, 3> plane = cross(at[from], at[to]);
-      for (Face_id g = 0; g < soup.face_count(); ++g)
-        for (const Point_id p : soup.loop(g))
-          if ((f != g || (p != from && p != to)) && dot(plane, at[p]) == 0) return false;
+  const Scene& scene = seen.scene;
+  std::vector<std::vector<std::array<double, 3>>> polygons;  // of the pieces, as the eye has them
+  for (const Piece& piece : scene.pieces()) {
+    polygons.emplace_back();
+    for (const Piece_corner& corner : scene.corners(piece)) {
+      std::array<double, 3> at{};
+      const Exact_point p = scene.position(corner.point);
+      for (std::size_t k = 0; k < 3; ++k) at[k] = Rational(p[k] - seen.pixels.eye[k]).get_d();
+      polygons.back().push_back(at);
     }
   }
+  for (std::size_t i = 0; i < polygons.size(); ++i)
+    for (std::size_t k = 0; k < polygons[i].size(); ++k) {
+      const std::size_t next = (k + 1) % polygons[i].size();
+      const std::array<double, 3> plane = cross(polygons[i][k], polygons[i][next]);
+      for (std::size_t j = 0; j < polygons.size(); ++j)
+        for (std::size_t m = 0; m < polygons[j].size(); ++m)
+          if ((i != j || (m != k && m != next)) && dot(plane, polygons[j][m]) == 0) return false;
+    }
   return true;
 }
 

@@ -1,5 +1,7 @@
 #include <sightline/kernel/scene/grid.h>
 
+#include <sightline/kernel/number.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -135,12 +137,9 @@ std::array<Rational, 4> Scene_grid::file_coefficients(const std::array<Integer, 
 
 Located_point Scene_grid::locate(const Exact_point& p) const {
   std::array<Rational, 3> grid;
-  Integer common = 1;
-  for (std::size_t k = 0; k < 3; ++k) {
-    grid[k] = (p[k] * scale_ - offset_[k]) / unit_;
-    common = lcm(common, grid[k].get_den());
-  }
-  Located_point q{Integer(grid[0] * common), Integer(grid[1] * common), Integer(grid[2] * common), common, 0, 0, 0, 0};
+  for (std::size_t k = 0; k < 3; ++k) grid[k] = (p[k] * scale_ - offset_[k]) / unit_;
+  const auto [whole, common] = Over_common(grid);
+  Located_point q{whole[0], whole[1], whole[2], common, 0, 0, 0, 0};
   std::array<double*, 3> place{&q.ax, &q.ay, &q.az};
   for (std::size_t k = 0; k < 3; ++k) {
     Rational scaled = grid[k];

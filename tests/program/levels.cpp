@@ -753,7 +753,7 @@ TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
       if (entry["cell"] == cell["cell"]) entry = cell;
     std::ofstream(path("forged/index.json")) << one;
     std::ofstream(path("forged/" + cell["certificate"].get<std::string>())) << certificate;
-    return run({"verify", rooms, out("forged")});
+    return run({"verify", rooms, out("forged"), "--cell", cell["cell"].dump()});
   };
   // The cell with the most portals, and a portal of another one that is not between the two.
   const Json* most = nullptr;

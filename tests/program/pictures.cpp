@@ -203,6 +203,7 @@ TEST_F(Pictures, are_the_same_at_any_scale_and_in_any_place) {
         ASSERT_NEAR(others.first[k], parts.first[k], 0.02) << "number " << k;
     };
     expect_same("2^600", times_power);
+    if (sanitized) continue;
     expect_same("2^-600", [&](int x) { return std::to_string(x) + "/" + times_power(1); });
     expect_same("far away", [](int x) { return std::to_string(1'000'000'000'000'000'000 + x); });
   }

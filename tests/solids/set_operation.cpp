@@ -574,7 +574,7 @@ bool may_share_a_plane(const std::vector<Polygon_soup>& solids) {
 }
 
 TEST(Set_operations, of_real_solids_in_pairs_with_a_plane_in_common_add_up) {
-  const auto scenes = closed_scenes(300);
+  const auto scenes = closed_scenes(test_scenes::is_sanitized() ? 100 : 300);
   if (scenes.empty()) GTEST_SKIP() << "the collection of scenes is not there";
   generate::Random random(1);
   std::size_t meeting = 0, pairs = 0;

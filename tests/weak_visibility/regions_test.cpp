@@ -1,6 +1,7 @@
 // Around the search: quick answers that leave out nothing, what it leaves open and events decide, surfaces of events,
 // and solids that look. SIGHTLINE_LONG: so many times the scenes, for a long run.
 
+#include "../sample.h"
 #include "rays.h"
 #include "scenes.h"
 
@@ -238,7 +239,7 @@ int side_of_line(const Exact_point& p, const Exact_point& q, const Exact_point& 
 TEST(Open_cells, hold_each_sightline_that_the_search_stopped_short_of) {
   std::size_t held = 0, with_cuts = 0;
   for (const weak_scenes::Family& family : weak_scenes::families())
-    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
+    for (std::uint64_t seed = 0; seed < (test_scenes::is_sanitized() ? 3 : weak_scenes::seeds(12)); ++seed) {
       const Weak_scene scene = family.make(seed);
       const Scene read(scene.soup);
       const Occluders occluders(read);

@@ -1,11 +1,11 @@
 #include <sightline/algorithms/weak_visibility/along/piece_run.h>
 
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <utility>
 
 namespace sightline {
@@ -20,16 +20,7 @@ Near<3> near_cross(const Near<3>& a, const Near<3>& b) {
 
 /// Exact: yes; doubles tell of most that they are not.
 bool is_zero_at(const Quadratic_root& t, const Quadratic& f) {
-  std::array<double, 3> c{};
-  std::array<long, 3> exponents{};
-  long most = std::numeric_limits<long>::min();
-  for (std::size_t k = 0; k < 3; ++k) {
-    c[k] = mpz_get_d_2exp(&exponents[k], f.c[k].get_mpz_t());
-    if (c[k] != 0) most = std::max(most, exponents[k]);
-  }
-  // Coefficients up to 1, each within 2^-52 or so small; t within 2^-52.
-  for (std::size_t k = 0; k < 3; ++k)
-    c[k] = c[k] == 0 ? 0 : std::ldexp(c[k], static_cast<int>(std::max(exponents[k] - most, -1000L)));
+  const std::array<double, 3> c = in_proportion(f.c);  // up to 1, each within 2^-52, as t is
   const double s = t.near();
   return !(std::fabs(c[0] + s * (c[1] + s * c[2])) > 0x1p-48) && t.sign_of(f) == 0;
 }

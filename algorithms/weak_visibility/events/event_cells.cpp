@@ -1,19 +1,18 @@
 #include <sightline/algorithms/weak_visibility/events/event_cells.h>
 
+#include <sightline/kernel/number.h>
+
 namespace sightline {
 
 Exact_pluecker moved(const Event_chart& chart, const Event_move& move, const Rational& t) {
-  std::array<Rational, 4> by;
-  Integer common = 1;
-  for (std::size_t k = 0; k < 4; ++k) {
-    by[k] = t * move.first[k];
-    if (k == 2) by[k] += t * t * move.second;
-    common = lcm(common, by[k].get_den());
-  }
-  const auto point = [&](const Homogeneous& from, const Rational& along_r, const Rational& along_n) {
-    const Integer by_r = Rational(along_r * common).get_num(), by_n = Rational(along_n * common).get_num();
+  std::array<Rational, 4> along;
+  for (std::size_t k = 0; k < 4; ++k) along[k] = t * move.first[k];
+  along[2] += t * t * move.second;
+  const Over_common<4> over(along);
+  const std::array<Integer, 4>& by = over.whole;
+  const auto point = [&](const Homogeneous& from, const Integer& by_r, const Integer& by_n) {
     Homogeneous x;
-    for (std::size_t k = 0; k < 4; ++k) x[k] = common * from[k] + by_r * chart.r[k] + by_n * chart.n[k];
+    for (std::size_t k = 0; k < 4; ++k) x[k] = over.denominator * from[k] + by_r * chart.r[k] + by_n * chart.n[k];
     return x;
   };
   return join(point(chart.v, by[0], by[2]), point(chart.w, by[1], by[3]));

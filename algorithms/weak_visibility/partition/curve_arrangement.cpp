@@ -1,6 +1,7 @@
 #include <sightline/algorithms/weak_visibility/partition/curve_arrangement.h>
 
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/time_limit.h>
 
 #include <CGAL/Interval_nt.h>
@@ -119,14 +120,7 @@ Bounded bounds_of(const Rational& x) {
 }
 
 bool may_meet(const Plane_curve& curve, const Chart_box& box) {
-  std::size_t most = 0;
-  for (const Integer& c : curve.c) most = std::max(most, bit_length(c));
-  std::array<double, 6> c;  // each within 2^-52
-  for (std::size_t k = 0; k < 6; ++k) {
-    long exponent = 0;
-    const double m = mpz_get_d_2exp(&exponent, curve.c[k].get_mpz_t());
-    c[k] = std::ldexp(m, static_cast<int>(std::max(exponent - static_cast<long>(most), -2000L)));
-  }
+  const std::array<double, 6> c = in_proportion(curve.c);  // each within 2^-52
   const double x = (box.x0 + box.x1) / 2, y = (box.y0 + box.y1) / 2, w = (box.x1 - box.x0) / 2,
                h = (box.y1 - box.y0) / 2;
   const double middle = c[0] + c[1] * x + c[2] * y + c[3] * x * x + c[4] * x * y + c[5] * y * y;

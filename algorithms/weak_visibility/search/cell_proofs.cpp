@@ -1,5 +1,6 @@
 #include <sightline/algorithms/weak_visibility/search/cell_proofs.h>
 
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -172,10 +173,7 @@ bool Cell_proofs::by_forms(const Line_cell& cell, bool source, bool thoroughly, 
     for (std::size_t k = 0; k < 4; ++k)
       sums[products.line_of(row)][k] += weight * Rational(edges.forms[products.edge_of(row)][k]);
   for (const auto& [row, sum] : sums) {
-    Integer common = 1;
-    for (const Rational& x : sum) common = lcm(common, x.get_den());
-    Weak_step::Form form;
-    for (std::size_t k = 0; k < 4; ++k) form[k] = sum[k].get_num() * (common / sum[k].get_den());
+    const auto [form, common] = Over_common(sum);
     Multiplier& multiplier =
         proof.emplace_back(Multiplier{cell.rows[row].place, cell.factor_of(row, Rational(Integer(1), common)), {}, {}});
     (source ? multiplier.source : multiplier.target) = form;

@@ -188,14 +188,8 @@ std::vector<Exact_pluecker> rational_lines(const Four& four) {
   std::vector<Exact_pluecker> lines;
   for (const auto& [u, v] : solutions) {
     Pluecker_in<Rational> l;
-    Integer common = 1;
-    for (std::size_t k = 0; k < 6; ++k) {
-      l[k] = u * basis[0][k] + v * basis[1][k];
-      common = lcm(common, l[k].get_den());
-    }
-    Exact_pluecker& line = lines.emplace_back();
-    for (std::size_t k = 0; k < 6; ++k) line[k] = l[k].get_num() * (common / l[k].get_den());
-    reduce(line);
+    for (std::size_t k = 0; k < 6; ++k) l[k] = u * basis[0][k] + v * basis[1][k];
+    reduce(lines.emplace_back(Over_common(l).whole));
   }
   return lines;
 }
