@@ -344,7 +344,8 @@ void Grouped_polygons::add_polygon(std::uint32_t group, Face_id face, const std:
     for (int axis = 0; axis < 3; ++axis) {
       p[static_cast<std::size_t>(axis)] = nearest_double(corner[axis]) + 0.0;  // no -0
       if (!std::isfinite(p[static_cast<std::size_t>(axis)]))
-        throw std::overflow_error("a coordinate is too large for a double, which is what files for drawing hold");
+        throw std::overflow_error("a corner of face " + std::to_string(face) +
+                                  " is too large for doubles, which files for drawing hold; scale the scene down");
     }
     corners_.push_back(known_.try_emplace(p, static_cast<std::uint32_t>(points_.size())).first->second);
     if (corners_.back() == points_.size()) points_.push_back(p);

@@ -176,7 +176,7 @@ static std::string error_of(const Json& r, const char* key) {
 
 /// A row of the tables: the first cell to the left, the others to the right.
 static void print_cells(const std::vector<std::string>& cells) {
-  std::string line = fmt::format("{:<22} {:>8} {:>8} {:>9}", cells[0], cells[1], cells[2], cells[3]);
+  std::string line = fmt::format("{:<23} {:>8} {:>8} {:>9}", cells[0], cells[1], cells[2], cells[3]);
   for (std::size_t k = 4; k < cells.size(); ++k)
     line += fmt::format(" {:>{}}", cells[k], k + 1 < cells.size() ? 8 : 15);
   std::cout << line << '\n';
@@ -188,7 +188,7 @@ static void print_images(const Json& rows, bool transparent) {
     for (const Json& r : rows) {
       if (shows_means(r) != means) continue;
       if (r["status"] != "done") {
-        std::cout << fmt::format("{:<22} {}\n", name_of(r), r["status"].get<std::string>());
+        std::cout << fmt::format("{:<23} {}\n", name_of(r), r["status"].get<std::string>());
         continue;
       }
       std::vector<std::string> cells{name_of(r), fmt::format("{:.4f}", r["seconds"].get<double>()),

@@ -24,16 +24,17 @@ static Check made(CLI::Validator validator) { return {std::make_shared<const CLI
 Check operator&(const Check& first, const Check& second) { return made(*first.validator & *second.validator); }
 
 Check one_of(const std::vector<std::string>& names) { return made(CLI::IsMember(names)); }
-Check range(int least, int most) { return made(CLI::Range(least, most)); }
-Check range(double least, double most) {
-  const std::string name = fmt::format("FLOAT in [{} - {}]", least, most);
-  return made({[least, most, name](std::string& text) {
-                 double value = 0;
+template <class Number>
+static Check range_of(Number least, Number most, const std::string& type, const std::string& wanted) {
+  return made({[least, most, wanted](std::string& text) {
+                 Number value = 0;
                  const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;  // no NaN
-                 return good ? "" : fmt::format("Value {} not in range [{} - {}]", text, least, most);
+                 return good ? "" : fmt::format("\"{}\" is not {} from {} to {}", text, wanted, least, most);
                },
-               name});
+               fmt::format("{} in [{} - {}]", type, least, most)});
 }
+Check range(int least, int most) { return range_of(least, most, "INT", "a whole number"); }
+Check range(double least, double most) { return range_of(least, most, "FLOAT", "a number"); }
 /// A check of a number, which help calls by a name.
 static Check of_number(const std::string& name, const std::string& wanted, bool (*holds)(double)) {
   return made({[wanted, holds](std::string& text) {
