@@ -44,7 +44,7 @@ struct Pair_code {
 namespace priority_detail {
 
 /// A plane with p on its closed front side and q on its closed back side, neither all on it. If there is one, there is
-/// one through an edge of one and a corner of the other.
+/// one through an edge of one and a corner of the other. Degenerate: of polygons of one plane none is told.
 std::optional<Normal_and_point> plane_between(const std::vector<Exact_point>& p, const std::vector<Exact_point>& q);
 
 }  // namespace priority_detail

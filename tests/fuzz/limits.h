@@ -87,12 +87,16 @@ inline void require_met(const Polygon_soup& soup, const Scene& scene, const Ray_
           "doubles know where it is");
 }
 
-/// Triangles of whole numbers of which an edge passes an axis as closely as these can, and rays along it that begin at
-/// a fraction of any length: what of them fits into words, and what does not.
+/// Triangles of whole numbers, short ones or wider than words, of which an edge passes an axis as closely as these can,
+/// and rays along it that begin at a fraction of any length: what of them fits into words, and what does not.
 inline void try_fine_rays(generate::Random& random) {
   const std::size_t axis = random.below(3), u = (axis + 1) % 3, v = (axis + 2) % 3;
   const std::int64_t far = std::int64_t{1} << random.between(4, 50);
-  const auto any = [&] { return Rational(static_cast<long>(random.between(-far, far))); };
+  const Rational wide = random.chance(1, 3) ? generate::power_of_two(static_cast<int>(random.between(45, 60))) : 0;
+  const auto any = [&] {  // at times beyond words
+    const Rational x = static_cast<long>(random.between(-far, far));
+    return wide == 0 ? x : Rational(x * wide + static_cast<long>(random.between(-far, far)));
+  };
   const auto little = [&] { return Rational(static_cast<long>(random.between(-1, 1))); };
   Polygon_soup soup;
   for (Point_id k = 0; k < 9; k += 3) {

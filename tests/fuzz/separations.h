@@ -1,10 +1,11 @@
 #pragma once
-// Planes that cut none of some polygons, against all planes across the same directions; and orders from an eye that
-// trees of such planes give, against rays.
+// Planes that cut none of some polygons, against all planes across the same directions; orders from an eye that trees
+// of such planes give, against rays; and planes between two polygons.
 
 #include "soups.h"
 
 #include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/algorithms/priority/separation.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/harness/laws/flat_faces.h>
@@ -123,6 +124,55 @@ inline void try_eye_order(const Scene& scene, const Exact_traits& traits, const 
       require(!harness::sees_over(eye, drawn[earlier], drawn[later]), "nothing that is drawn earlier is nearer");
 }
 
+/// A plane between two convex polygons has the one before it and the other behind it, neither all in it; where none is
+/// told, none through three of their corners has. Half of them touch each other's planes, as nobody asks who asks about
+/// faces that may hide each other: all of the one is then on one side of the other's plane, with a corner in it.
+inline void try_plane_between(Random& random) {
+  const auto drawn = [&] {
+    const Exact_point at = generate::lattice(random, 3), u = generate::lattice(random, 2),
+                      v = generate::lattice(random, 2);
+    generate::Points points{at, generate::along(at, 1, u)};
+    if (random.chance(1, 2)) points.push_back(generate::along(points[1], 1, v));
+    points.push_back(generate::along(at, 1, v));
+    return points;
+  };
+  const generate::Points p = drawn();
+  generate::Points q = drawn();
+  if (!spans_a_plane(p) || !spans_a_plane(q)) return;
+  if (random.chance(1, 2)) {
+    const auto share = [&] { return Rational(generate::integer(random, -2, 4) / 2); };
+    const Exact_point along_edge = generate::along(p[0], share(), minus(p[1], p[0])),
+                      touched = generate::along(along_edge, share(), minus(p.back(), p[0])),
+                      way = minus(touched, q[random.below(q.size())]);
+    for (Exact_point& corner : q) corner = generate::along(corner, 1, way);
+  }
+  const auto is_between = [&](const Exact_point& normal, const Exact_point& point) {
+    bool is_before = false, is_behind = false;
+    for (const generate::Points* its : std::array<const generate::Points*, 2>{&p, &q})
+      for (const Exact_point& corner : *its) {
+        const int side = sgn(dot(normal, minus(corner, point)));
+        if (side == 0) continue;
+        if ((side > 0) != (its == &p)) return false;
+        (its == &p ? is_before : is_behind) = true;
+      }
+    return is_before && is_behind;
+  };
+  if (const auto plane = priority_detail::plane_between(p, q)) {
+    require(is_between(plane->normal, plane->point),
+            "a plane between two polygons has the one before it and the other behind it");
+    return;
+  }
+  generate::Points all = p;
+  all.insert(all.end(), q.begin(), q.end());
+  for (std::size_t i = 2; i < all.size(); ++i)
+    for (std::size_t j = 1; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k) {
+        const Exact_point u = minus(all[j], all[i]), v = minus(all[k], all[i]);
+        require(!is_between(cross(u, v), all[i]) && !is_between(cross(v, u), all[i]),
+                "where no plane is between two polygons there is none");
+      }
+}
+
 inline void separations(std::string_view bytes) {
   Random random(Bytes(bytes).word());
   const bool about = random.chance(1, 4);
@@ -134,6 +184,7 @@ inline void separations(std::string_view bytes) {
   try_separation(scene, traits, faces, random);
   const Exact_point eye = about ? Exact_point{0, 0, 0} : generate::half_lattice(random, 6);
   try_eye_order(scene, traits, faces, eye, random.chance(1, 4));
+  for (int pairs = 0; pairs < 4; ++pairs) try_plane_between(random);
 }
 
 }  // namespace fuzz
