@@ -272,8 +272,7 @@ void check_usage(const Cutset_arguments& arguments) {
   for (const auto& [option, is_given] : {std::pair("--size", !arguments.canvas.size.empty()),
                                          {"--background", !arguments.canvas.background.empty()},
                                          {"--shade", arguments.shade != Cutset_arguments{}.shade}})
-    if (arguments.svg.empty() && is_given)
-      throw Usage_error(fmt::format("{} is of a picture: add --svg FILE, or leave it out", option));
+    if (arguments.svg.empty() && is_given) throw no_picture_for(option);
 }
 
 /// By the tracker or by an update as published, which tests all nodes for the first frame.

@@ -136,8 +136,7 @@ static void check_options(const Command& command, const std::string& question) {
       throw Usage_error(fmt::format("{0} is of compare {1}; leave it out of compare {2}", option.name,
                                     fmt::join(option.questions, ", "), question));
   for (const char* option : {"--size", "--background"})
-    if (question == "weak" && command.given(option) && !command.given("--svg"))
-      throw Usage_error(fmt::format("{} is of a picture: add --svg FILE, or leave it out", option));
+    if (question == "weak" && command.given(option) && !command.given("--svg")) throw no_picture_for(option);
 }
 
 void add_compare(Command program) {

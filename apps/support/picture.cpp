@@ -153,6 +153,10 @@ void View_arguments::add_to(Command command, const std::string& usual) {
   canvas.add_to(command, usual);
 }
 
+Usage_error no_picture_for(const std::string& option) {
+  return Usage_error(option + " is of a picture: add --svg FILE, or leave it out");
+}
+
 const char* View_arguments::first_given() const {
   for (const auto& [option, is_given] : {std::pair("--look", !look.empty()),
                                          {"--up", !up.empty()},
@@ -165,8 +169,7 @@ const char* View_arguments::first_given() const {
 }
 
 void View_arguments::check_usage(bool has_picture) const {
-  if (const char* option = first_given(); option != nullptr && !has_picture)
-    throw Usage_error(std::string(option) + " is of a picture: add --svg FILE, or leave it out");
+  if (const char* option = first_given(); option != nullptr && !has_picture) throw no_picture_for(option);
   check_usage();
 }
 

@@ -74,6 +74,9 @@ struct View {
 /// Adds --shade to a command that draws.
 Option add_shade_option(Command command, std::string& shade);
 
+/// What there is to say of an option of a picture where none is drawn.
+Usage_error no_picture_for(const std::string& option);
+
 /// Of a picture's width, in degrees.
 inline constexpr double least_field = 1e-6, most_field = 170;
 
