@@ -51,21 +51,16 @@ constexpr std::size_t most_plane_bits = 1024;
 /// A corner of a side in the making, and the same in integers: to tell its side of a plane takes no fractions.
 struct Brush_corner {
   Exact_point at;
-  std::array<Integer, 3> scaled;
-  Integer scale;
+  Over_common<3> scaled;
 
-  explicit Brush_corner(Exact_point p) : at(std::move(p)), scale(1) {
-    for (const Rational& x : at) scale = lcm(scale, x.get_den());
-    for (std::size_t k = 0; k < 3; ++k) scaled[k] = at[k].get_num() * (scale / at[k].get_den());
-  }
+  explicit Brush_corner(Exact_point p) : at(std::move(p)), scaled(at) {}
 };
 
 Rational beyond(const Side& side, const Exact_point& p) {
   return side.normal[0] * p[0] + side.normal[1] * p[1] + side.normal[2] * p[2] - side.offset;
 }
 int sign_beyond(const Side& side, const Brush_corner& p) {
-  return sgn(Integer(side.normal[0] * p.scaled[0] + side.normal[1] * p.scaled[1] + side.normal[2] * p.scaled[2] -
-                     side.offset * p.scale));
+  return sgn(Integer(dot(side.normal, p.scaled.whole) - side.offset * p.scaled.denominator));
 }
 
 /// A square in a side's plane, counterclockwise as seen from outside, whose corners have two coordinates of size

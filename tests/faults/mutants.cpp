@@ -79,10 +79,12 @@ std::vector<std::pair<std::string, std::string>> listed(const std::string& sourc
 }
 
 /// Whether the tool can be asked: of sanitized libraries it knows nothing.
-bool has_python() { return !test_scenes::is_sanitized() && std::system("python3 -c '' 2>/dev/null") == 0; }
+bool can_be_asked() { return !test_scenes::is_sanitized() && std::system("python3 -c '' 2>/dev/null") == 0; }
+
+constexpr const char* not_asked = "no python3 here, or a run under sanitizers, of which it knows nothing";
 
 TEST(Mutants, are_derived_from_what_runs_and_from_nothing_else) {
-  if (!has_python()) GTEST_SKIP() << "no python3 here, or a run under sanitizers, of which it knows nothing";
+  if (!can_be_asked()) GTEST_SKIP() << not_asked;
   std::multiset<std::string> found;
   for (const auto& [id, row] : listed(made_up)) found.insert(row);
   const std::multiset<std::string> expected = {
@@ -120,7 +122,7 @@ TEST(Mutants, are_derived_from_what_runs_and_from_nothing_else) {
 }
 
 TEST(Mutants, keep_their_ids_where_the_file_changes_elsewhere) {
-  if (!has_python()) GTEST_SKIP() << "no python3 here, or a run under sanitizers, of which it knows nothing";
+  if (!can_be_asked()) GTEST_SKIP() << not_asked;
   const auto before = listed(made_up);
   std::string moved = "int twice(int x) {\n  return x + x;\n}\n" + made_up;
   moved.replace(moved.find("all.size() < 3"), 14, "all.size() < 4");
@@ -134,7 +136,7 @@ TEST(Mutants, keep_their_ids_where_the_file_changes_elsewhere) {
 }
 
 TEST(Mutants, are_chosen_by_their_ids) {
-  if (!has_python()) GTEST_SKIP() << "no python3 here, or a run under sanitizers, of which it knows nothing";
+  if (!can_be_asked()) GTEST_SKIP() << not_asked;
   const auto all = listed(made_up);
   const auto two = listed(made_up, " --ids " + all[7].first + "," + all[2].first);
   EXPECT_EQ(two, (std::vector{all[2], all[7]}));
@@ -142,7 +144,7 @@ TEST(Mutants, are_chosen_by_their_ids) {
 
 // By clang a unit calls its own functions, whatever stands before the library: what calls a mutant is compiled with it.
 TEST(Mutants, are_compiled_with_the_rest_of_their_unit) {
-  if (!has_python()) GTEST_SKIP() << "no python3 here, or a run under sanitizers, of which it knows nothing";
+  if (!can_be_asked()) GTEST_SKIP() << not_asked;
   const Folder folder(made_up);
   const std::string path = folder.path.string();
   for (const int k : {0, 1}) {
