@@ -22,7 +22,12 @@ void* checked(void* memory) {
   return memory;
 }
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_sanitized = true;
+#else
+constexpr bool is_sanitized = false;
+#endif
+#if defined(__GLIBC__)
 constexpr bool has_small_blocks = true;
 #else
 constexpr bool has_small_blocks = false;
@@ -141,6 +146,7 @@ static void* reallocated(void* before, std::size_t old_size, std::size_t size) {
 }
 
 void keep_numbers_in_small_blocks(void (*end_without_memory)()) {
+  if (is_sanitized) return;
   end_where_memory_ran_out = end_without_memory;
   mp_set_memory_functions(allocated, reallocated, released);
 }

@@ -17,7 +17,7 @@ class Mpi : public Program {
     if (!fs::exists(fs::path(executable).parent_path() / "sightline_mpi.so"))
       GTEST_SKIP() << "the program is built without MPI (Debian: libopenmpi-dev)";
     for (const char* root : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"}) setenv(root, "1", 1);
-    if (sanitized) setenv("ASAN_OPTIONS", "malloc_context_size=1:handle_sigill=1:detect_leaks=0", 1);  // MPI's own
+    if (sanitized) setenv("ASAN_OPTIONS", "malloc_context_size=2:handle_sigill=1:detect_leaks=0", 1);  // MPI's own
   }
 
   /// Runs so many processes, each of which does `before` in a shell, with the program's command line as its arguments.
