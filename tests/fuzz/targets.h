@@ -49,6 +49,7 @@
 #include "subject_laws.h"
 #include "sure_doubles.h"
 #include "text_numbers.h"
+#include "tree_options.h"
 #include "volumes.h"
 #include "weak_claims.h"
 #include "weak_parts.h"
@@ -130,6 +131,7 @@ inline const std::vector<Target>& targets() {
                                        {"planar_parts", planar_parts, {}},
                                        {"cutset", cutset, {}},
                                        {"bsp_queries", bsp_queries, {}},
+                                       {"tree_options", tree_options, {}},
                                        {"text_numbers", text_numbers, {}},
                                        {"cover", cover, {}},
                                        {"written", written, {}},
