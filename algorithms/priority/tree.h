@@ -249,8 +249,8 @@ class Tree_builder {
     return {next, next + 1};
   }
 
-  /// The members divided by the plane of one of them, those across it cut: the plane tried that cuts fewest, and of
-  /// those the one that divides best.
+  /// The members divided by the plane of one of them, those across it cut: of the planes tried the first one of the
+  /// least cost, which is what it cuts, times split_cost, and by how many its sides differ.
   Separation divided(const Members& members) {
     const std::size_t n = members.size(), tries = std::min(n, std::max<std::size_t>(64, effort / n));
     std::size_t best_cost = std::numeric_limits<std::size_t>::max();

@@ -4,8 +4,11 @@
 
 #include "soups.h"
 
+#include <sightline/algorithms/priority/components.h>
 #include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/algorithms/priority/implicit_graph.h>
 #include <sightline/algorithms/priority/pair_code.h>
+#include <sightline/algorithms/priority/relation.h>
 #include <sightline/algorithms/priority/separation.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/harness/laws/flat_faces.h>
@@ -102,6 +105,39 @@ inline void try_separation(const Scene& scene, const Exact_traits& traits, const
             "of separating planes one is found that leaves the fewest on its larger side");
 }
 
+/// Where a tree has one plane, which cuts the only component of several faces, it is one of their planes with the least
+/// cost: four for each that it cuts, and what is on one of its sides more than on the other.
+inline void try_cut(const Exact_traits& traits, const std::vector<Flat_face>& faces) {
+  const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {false, true, {}});
+  if (tree.counters.planes != 1 || tree.counters.cutting_planes != 1) return;
+  const Priority_relation<Exact_traits> relation(traits);
+  const Priority_components components =
+      Implicit_priority_graph<Priority_relation<Exact_traits>>(relation).find_components();
+  std::vector<std::vector<std::uint32_t>> members(faces.size());
+  for (std::uint32_t i = 0; i < faces.size(); ++i) members[components.h(i)].push_back(i);
+  const auto larger = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+  const std::vector<std::uint32_t>& cut = *std::max_element(members.begin(), members.end(), larger);
+  std::size_t least = ~std::size_t{0};
+  bool is_taken = false;
+  for (const std::uint32_t f : cut) {
+    std::array<std::size_t, 4> at{};  // on, behind, in front, across
+    for (const std::uint32_t g : cut) {
+      const auto has = [&](int side) {
+        return std::any_of(faces[g].corners.begin(), faces[g].corners.end(),
+                           [&](const Exact_point& p) { return sgn(faces[f].height(p)) == side; });
+      };
+      ++at[(has(-1) ? 1u : 0u) + (has(1) ? 2u : 0u)];
+    }
+    const std::size_t cost = 4 * at[3] + std::max(at[1], at[2]) - std::min(at[1], at[2]);
+    if (cost < least) {
+      least = cost;
+      is_taken = false;
+    }
+    is_taken = is_taken || (cost == least && at[3] == tree.counters.splits);
+  }
+  require(is_taken, "of the planes that cut faces the one of the least cost is taken");
+}
+
 /// Of what a tree draws none obscures what is drawn later, and each face that the eye is in front of is drawn, once.
 inline void try_eye_order(const Scene& scene, const Exact_traits& traits, const std::vector<Flat_face>& faces,
                           const Exact_point& eye, bool split) {
@@ -184,6 +220,7 @@ inline void separations(std::string_view bytes) {
   try_separation(scene, traits, faces, random);
   const Exact_point eye = about ? Exact_point{0, 0, 0} : generate::half_lattice(random, 6);
   try_eye_order(scene, traits, faces, eye, random.chance(1, 4));
+  if (random.chance(1, 4)) try_cut(traits, faces);
   for (int pairs = 0; pairs < 4; ++pairs) try_plane_between(random);
 }
 
