@@ -3,6 +3,7 @@
 
 #include "bsp_queries.h"
 
+#include <sightline/algorithms/bsp/order_cuts.h>
 #include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/soups.h>
 
@@ -146,8 +147,49 @@ inline void good_planes(Random& random) {
   }
 }
 
+/// Where planes cut an order from an eye: of the fragments about a cut, as far as they are as deep in the tree, what
+/// comes before it is in front of its plane, what follows behind, and neither strictly beyond.
+inline void cuts_of_orders(Random& random) {
+  const Asked_faces asked = any_asked_faces(random);
+  Scene scene(generate::soup_of(asked.faces));
+  Bsp_options options;
+  options.threads = 1;
+  options.seed = random.below(1000);
+  options.given = any_given_nodes(scene, random);
+  const Exact_traits traits(scene);
+  const Exact_tree tree = build_bsp(traits, options);
+  std::vector<Plain_face> faces;
+  for (const generate::Points& face : asked.faces)
+    if (spans_a_plane(face)) faces.emplace_back(face);
+  Order_cuts cuts;
+  std::vector<generate::Points> drawn;
+  traverse_with_cuts(traits, tree, traits.eye(asked_point(faces, random)), &scene, cuts,
+                     [&](const Fragment<Exact_traits>& fragment, Sign) {
+                       drawn.emplace_back();
+                       for (const auto& corner : fragment.polygon)
+                         drawn.back().push_back(traits.position(*corner.vertex));
+                     });
+  require(cuts.depths.size() == drawn.size(), "each fragment has its depth");
+  for (const Order_cuts::Cut& cut : cuts.others) {
+    const auto ends_at = [&](std::size_t place) {
+      return std::any_of(cuts.others.begin(), cuts.others.end(),
+                         [&](const Order_cuts::Cut& other) { return other.place == place && other.depth < cut.depth; });
+    };
+    const auto is_beyond = [&](const generate::Points& corners, int side) {
+      return std::any_of(corners.begin(), corners.end(), [&](const Exact_point& p) {
+        return sgn(cut.plane[0] * p[0] + cut.plane[1] * p[1] + cut.plane[2] * p[2] + cut.plane[3]) == side;
+      });
+    };
+    for (std::size_t k = cut.place; k > 0 && cuts.depths[k - 1] >= cut.depth && !ends_at(k); --k)
+      require(!is_beyond(drawn[k - 1], -1), "what comes before a cut is in front of its plane");
+    for (std::size_t k = cut.place; k < drawn.size() && cuts.depths[k] >= cut.depth && !ends_at(k); ++k)
+      require(!is_beyond(drawn[k], 1), "what follows a cut is behind its plane");
+  }
+}
+
 inline void tree_options(std::string_view bytes) {
   Random random(Bytes(bytes).word());
+  if (random.chance(1, 3)) return cuts_of_orders(random);
   if (random.chance(1, 40)) trees_of_threads(random);
   else if (random.chance(1, 10)) good_planes(random);
   else given_planes(random);
