@@ -42,8 +42,9 @@ struct Slope {
 
 void add_slopes(std::span<const Image_polygon> polygons, std::size_t list, std::vector<Slope>& slopes) {
   const auto add = [&](const Image_loop& loop, int wanted) {
-    const int sense = sgn(twice_strips(loop)) * wanted;
-    for (std::size_t k = 0; sense != 0 && k < loop.size(); ++k) {
+    // One of no area is a spike, which comes to nothing, or crosses itself.
+    const int sense = (twice_strips(loop) < 0 ? -1 : 1) * wanted;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
       const Image_point &a = loop[k], &b = loop[(k + 1) % loop.size()];
       if (a[0] < b[0]) slopes.push_back({a, b, list, sense});
       if (b[0] < a[0]) slopes.push_back({b, a, list, -sense});

@@ -26,6 +26,8 @@ TEST(Window_laws, pass_what_is_clipped_rightly_and_what_is_refused_rightly) {
   EXPECT_EQ(harness::checked_clip(frame, frame).state, State::passed);
   EXPECT_EQ(harness::checked_clip({}, frame).state, State::passed);
   EXPECT_EQ(harness::checked_clip(twice, frame).state, State::passed) << "which overlap";
+  const std::vector<Image_polygon> bow{{{{0, 0}, {2, 2}, {2, 0}, {0, 2}}, {}}};
+  EXPECT_EQ(harness::checked_clip(bow, frame).state, State::passed) << "which crosses itself, its areas adding up to 0";
   EXPECT_EQ(harness::checked_clip(frame, beside).state, State::passed) << "a hole beside its polygon";
 }
 
