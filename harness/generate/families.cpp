@@ -2,6 +2,7 @@
 
 #include <sightline/harness/generate/exponents.h>
 #include <sightline/harness/generate/gap_drafts.h>
+#include <sightline/harness/generate/many_corners.h>
 #include <sightline/harness/generate/projective.h>
 #include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/tangles.h>
@@ -73,14 +74,14 @@ Posed_scene nudged(view_drafts::Made made, const Family_parameters& parameters, 
   return with_an_eye(std::move(made), parameters, random);
 }
 
-Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& random) {
-  require(parameters.size <= 1000000, "size: at most 10^6 faces");
-  const Rational gap = ulps_of_size(parameters.ulps, small_bits);
-  std::vector<Holed_face> holed;
-  for (std::size_t count = 1 + random.below(3); count > 0; --count) holed.push_back(twisted_holes(random, gap));
+namespace {
+
+/// Faces with holes, and others anywhere, with some eye.
+Posed_scene holed_scene(const std::vector<Holed_face>& holed, std::size_t others, std::size_t size, Random& random) {
+  require(size <= 1000000, "size: at most 10^6 faces");
   Faces faces;
-  add_any(faces, 1 + random.below(3), random);
-  while (faces.size() + holed.size() < parameters.size) faces.push_back(any_face(random));
+  add_any(faces, others, random);
+  while (faces.size() + holed.size() < size) faces.push_back(any_face(random));
   Posed_scene scene;
   scene.soup = soup_of(faces);
   for (const Holed_face& face : holed) {
@@ -89,6 +90,30 @@ Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& rand
     faces.push_back(face.outer);
   }
   scene.eye = view_drafts::some_eye(faces, random);
+  return scene;
+}
+
+}  // namespace
+
+Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& random) {
+  const Rational gap = ulps_of_size(parameters.ulps, small_bits);
+  std::vector<Holed_face> holed;
+  for (std::size_t count = 1 + random.below(3); count > 0; --count) holed.push_back(twisted_holes(random, gap));
+  const std::size_t others = 1 + random.below(3);
+  return holed_scene(holed, others, parameters.size, random);
+}
+
+Posed_scene with_flat_holes(const Family_parameters& parameters, Random& random) {
+  const std::vector<Holed_face> holed = windows(random, ulps_of_size(parameters.ulps, small_bits));
+  const std::size_t others = random.below(3);
+  Posed_scene scene = holed_scene(holed, others, parameters.size, random);
+  if (random.chance(1, 2)) scene.source = either_way(rectangle(-3, 3, -3, 3, integer(random, -3, 3)), random);
+  return scene;
+}
+
+Posed_scene with_many_corners(const Family_parameters& parameters, Random& random) {
+  Posed_scene scene = nudged(view_drafts::with_some_eyes(many_corners(random), random), parameters, random);
+  if (random.chance(1, 2)) scene.source = round_face(random);
   return scene;
 }
 
@@ -206,6 +231,13 @@ const std::vector<Family>& families() {
         faces, 0, 38,
         [](const Family_parameters& parameters, Random& random) { return with_twisted_holes(parameters, random); });
     list.back().holes = true;
+    add("flat_holes",
+        "planar faces with holes that touch in corners and on edges; K ulps beside (no file format holds them)", faces,
+        0, 58, [](const Family_parameters& parameters, Random& random) { return with_flat_holes(parameters, random); });
+    list.back().holes = true;
+    add("many_corners", "faces of 8 to 22 corners: convex, combs, saws, stairs, stars, spirals, with straight corners",
+        faces, 0, 59,
+        [](const Family_parameters& parameters, Random& random) { return with_many_corners(parameters, random); });
     add("exponents", "faces and a source whose coordinates have exponents from -1070 to 1020, mixed", faces, 0, 39,
         [](const Family_parameters& parameters, Random& random) {
           Faces_and_source made = exponents(random);

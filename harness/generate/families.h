@@ -97,6 +97,12 @@ Posed_scene nudged(view_drafts::Made made, const Family_parameters& parameters, 
 /// The eye is anywhere. More faces than there are: any ones on the lattice.
 Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& random);
 
+/// Faces of many corners, concave ones among them, and in half of them a source of many corners.
+Posed_scene with_many_corners(const Family_parameters& parameters, Random& random);
+
+/// Planar faces with holes, that touch their contour and one another or, beside that, do so by a gap no more.
+Posed_scene with_flat_holes(const Family_parameters& parameters, Random& random);
+
 /// A question of weak visibility; the eye is on the source or before it. More faces than there are: any ones on the
 /// lattice, aside.
 Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Family_parameters& parameters, Random& random);
@@ -111,8 +117,8 @@ Posed_scene of_a_kind(const Kind& kind, const Family_parameters& parameters, Ran
 
 // ---- The list
 
-/// All families: questions of weak visibility, scenes with an eye, tangles, pairs of solids, and the kinds of scenes.h.
-/// Each name is there once.
+/// All families: questions of weak visibility, scenes with an eye, tangles, faces with holes, pairs of solids, and the
+/// kinds of scenes.h. Each name is there once.
 const std::vector<Family>& families();
 
 /// The family of that name, or std::invalid_argument that says which there are.

@@ -11,6 +11,7 @@
 #include <sightline/algorithms/image/warnock.h>
 #include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/cells.h>
+#include <sightline/algorithms/levels/coarse.h>
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
@@ -34,8 +35,10 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/conservative.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/volume.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/harness/generate/pixel_views.h>
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/rays.h>
 #include <sightline/harness/laws/solids.h>
 #include <sightline/kernel/scene/scene.h>
@@ -134,7 +137,7 @@ std::string lines(const Posed_scene& posed, const Manner& manner, std::uint64_t)
   const Piece_boxes boxes(scene);
   std::ostringstream out;
   for (const Drawn_line& line :
-       line_drawing(view, visible_surface(view, boxes, visible_options({})), boxes, manner.threads)) {
+       line_drawing(view, visible_surface(view, boxes, visible_options({})), boxes, manner.threads, manner.progress)) {
     put_points(out, {line.ends.begin(), line.ends.end()});
     out << line.kind << ' ' << line.parts.size() << '\n';
     for (const Line_part& part : line.parts) out << part.from << ' ' << part.to << ' ' << part.hidden_by << '\n';
@@ -299,6 +302,24 @@ std::string weakly(const Posed_scene& posed, const Manner& manner, std::uint64_t
   return out.str();
 }
 
+/// Of two boxes about corners of the scene, which may be the same.
+std::string solid_source(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
+  if (posed.soup.point_count() == 0) return {};
+  Random random(choice);
+  generate::Faces faces;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Exact_point low = posed.soup.point(static_cast<Point_id>(random.below(posed.soup.point_count())));
+    const Rational size = generate::integer(random, 1, 3);
+    generate::add(faces, generate::box(low, generate::along(low, size, {1, 1, 1})));
+  }
+  std::ostringstream out;
+  run_with_threads(manner.threads, [&] {
+    for (const auto& polygon : Weak_volume(generate::soup_of(faces), manner.progress).surface())
+      put_points(out, polygon);
+  });
+  return out.str();
+}
+
 // ---- Levels
 
 Level_cells level_of(const Posed_scene& posed, const Manner& manner, std::uint64_t choice) {
@@ -336,6 +357,7 @@ std::string cells(const Posed_scene& posed, const Manner& manner, std::uint64_t 
     out << wall.front << ' ' << wall.behind << '\n';
     put_rows(out, wall.open);
   }
+  put_all(out, convex_regions(level, 1 + choice % 4, manner.progress));
   return out.str();
 }
 
@@ -507,7 +529,9 @@ std::vector<Question> questions_of_order() {
 }
 std::vector<Question> questions_of_graph() { return {{"components", components, true}, {"arcs", arcs, true}}; }
 std::vector<Question> questions_of_weak() {
-  return {{"what may be visible", possibly, true, true}, {"what is weakly visible", weakly, false, true}};
+  return {{"what may be visible", possibly, true, true},
+          {"what is weakly visible", weakly, false, true},
+          {"a solid's surface", solid_source}};
 }
 std::vector<Question> questions_of_pvs() {
   return {{"cells", cells, true, true},

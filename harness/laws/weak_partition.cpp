@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -101,6 +102,17 @@ Light light_at(const Scene& scene, std::uint32_t piece, const generate::Points& 
   return seen == whole ? Light::lit : Light::penumbra;
 }
 
+double share_of_chart(const Scene& scene, const Light_partition& partition) {
+  const generate::Points corners = scene.corner_points(scene.pieces()[partition.piece]);
+  const Exact_point of_chart = cross(partition.chart[1], partition.chart[2]);
+  const auto axis = static_cast<std::size_t>(
+      std::find_if(of_chart.begin(), of_chart.end(), [](const Rational& x) { return sgn(x) != 0; }) - of_chart.begin());
+  Rational twice = 0;
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    twice += cross(minus(corners[k - 1], corners[0]), minus(corners[k], corners[0]))[axis];
+  return std::abs(Rational(twice / 2 / of_chart[axis]).get_d());
+}
+
 namespace {
 
 /// Whether it is seen that no curve passes between two points: none has a root on the segment, by what bounds it there.
@@ -183,14 +195,17 @@ std::string flaw_of_places(const Scene& scene, const Occluders& occluders, const
 
 /// That shares of a face, and of each of its pieces, add up to all of it.
 std::string flaw_of_shares(const Scene& scene, const std::vector<Light_partition>& pieces) {
-  const auto is_whole = [](const std::array<Bounded, lights>& shares) {
+  double least = 1;
+  for (const Light_partition& partition : pieces) least = std::min(least, share_of_chart(scene, partition));
+  const double width = std::max(1e-3, 1e-12 / least);
+  const auto is_whole = [&](const std::array<Bounded, lights>& shares) {
     double low = 0, high = 0;
     for (const Bounded& share : shares) {
       if (!(0 <= share.low && share.low <= share.high && share.high <= 1)) return false;
       low += share.low;
       high += share.high;
     }
-    constexpr double rounding = 1e-12, width = 1e-3;
+    constexpr double rounding = 1e-12;
     return low <= 1 + rounding && high >= 1 - rounding && high - low < width;
   };
   for (const Light_partition& partition : pieces)

@@ -3,6 +3,7 @@
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/weak_partition.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
 
@@ -30,7 +31,7 @@ std::optional<std::uint32_t> only_piece_of(const Scene& scene, Face_id face) {
   return only;
 }
 
-/// Nothing where a part is undecided.
+/// Nothing where a part is undecided, or the piece is a sliver.
 std::optional<Shares> shares_of(const Scene& scene, std::uint32_t piece, const std::vector<generate::Points>& sources) {
   constexpr std::size_t most_rectangles = 1500;
   std::size_t asked = 0;
@@ -40,6 +41,8 @@ std::optional<Shares> shares_of(const Scene& scene, std::uint32_t piece, const s
   const Light_partition partition = Light_partitioner(scene).partition(piece, sources, options, counters);
   for (const auto& cell : partition.cells)
     if (cell.light == Light::undecided) return std::nullopt;
+  constexpr double sliver = 1e-9;
+  if (share_of_chart(scene, partition) < sliver) return std::nullopt;
   return partition.shares();
 }
 

@@ -6,6 +6,7 @@
 #include "support.h"
 
 #include <sightline/algorithms/levels/volumes.h>
+#include <sightline/algorithms/weak_visibility/volume.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/kernel/number.h>
@@ -154,6 +155,78 @@ inline bool have_inside(const std::vector<Half_space>& all) {
   return false;
 }
 
+/// Of a box, what is right in front of a small square, and right behind it, is inside iff it is between the box's
+/// walls; also where rays from the square's middle come through an edge or a corner of the box, where they run along a
+/// wall, in the square's plane or in that of a wall that begins behind them. Rays that go (1000003, 7919 k, 104729 +
+/// k^2) are the first to be tried.
+inline void sees_a_box(Random& random) {
+  const long k = random.chance(2, 3) ? 1 : 2;
+  Exact_point ray{1000003, 7919 * k, 104729 + k * k};
+  if (random.chance(1, 2)) ray = generate::along({0, 0, 0}, -1, ray);
+  const auto share = [&](long least, long most) { return Rational(generate::integer(random, least, most) / 8); };
+  Exact_point low = generate::lattice(random, 3), high = low;
+  for (Rational& x : high) x += generate::integer(random, 1, 4);
+  // 1. A point from which a ray comes to a corner, to an edge or to the inside of a wall, or that is in a wall's plane.
+  Exact_point target;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rational size = high[i] - low[i];
+    target[i] = low[i] + size * (random.chance(1, 2) ? share(0, 8) : generate::integer(random, 0, 1));
+  }
+  const Rational length = generate::integer(random, 0, 9) / (1000003 * 4);
+  const Exact_point middle = generate::along(target, Rational(-length), ray);
+  // 2. A small square around it, in any plane, or in one that the ray is in.
+  Exact_point normal = generate::directions(random, 2)[0];
+  if (random.chance(1, 3))
+    normal = random.chance(1, 2) ? cross(ray, normal) : Exact_point{ray[1], Rational(-ray[0]), 0};
+  if (is_zero(normal)) return;
+  const Exact_point u = is_zero(cross(normal, Exact_point{1, 0, 0})) ? cross(normal, Exact_point{0, 1, 0})
+                                                                     : cross(normal, Exact_point{1, 0, 0}),
+                    v = cross(normal, u);
+  Rational longest = 1;
+  for (const Exact_point& d : {u, v})
+    for (const Rational& x : d) longest = std::max(longest, Rational(abs(x)));
+  const Rational size = Rational(1) / (longest * (std::int64_t{1} << 40));
+  const auto corner = [&](long a, long b) {
+    return generate::along(generate::along(middle, Rational(a * size), u), Rational(b * size), v);
+  };
+  const Points square{corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
+  // 3. Whether some of what is right in front, or behind, is inside: what the walls leave of the square.
+  const Exact_point look = cross(minus(square[1], square[0]), minus(square[2], square[0]));
+  const auto is_inside_beside = [&](int side) {
+    Points left = square;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const int inwards : {1, -1}) {
+        const auto height = [&](const Exact_point& p) {
+          return Rational(inwards > 0 ? p[i] - low[i] : high[i] - p[i]);
+        };
+        if (std::all_of(left.begin(), left.end(), [&](const Exact_point& p) { return height(p) == 0; })) {
+          if (side * inwards * sgn(look[i]) <= 0) return false;
+          continue;
+        }
+        if (std::all_of(left.begin(), left.end(), [&](const Exact_point& p) { return height(p) <= 0; })) return false;
+        Points part;
+        for (std::size_t n = 0; n < left.size(); ++n) {
+          const Exact_point &p = left[n], &q = left[(n + 1) % left.size()];
+          const Rational at = height(p), after = height(q);
+          if (at >= 0) part.push_back(p);
+          if (sgn(at) * sgn(after) < 0) part.push_back(generate::along(p, Rational(at / (at - after)), minus(q, p)));
+        }
+        left = std::move(part);
+      }
+    return true;
+  };
+  Faces walls = generate::box(low, high);
+  random.shuffle(walls);
+  if (random.chance(1, 2))
+    for (Points& wall : walls) wall = generate::reversed(wall);
+  const Weak_volume volume(generate::soup_of(walls));
+  const bool front = is_inside_beside(1), behind = is_inside_beside(-1);
+  require(volume.sees_from_within(square, false) == front,
+          "what is right in front of a square is inside a box iff it is between its walls");
+  require(volume.sees_from_within(square, true) == behind,
+          "what is right behind a square is inside a box iff it is between its walls");
+}
+
 }  // namespace rooms
 
 inline void volumes(std::string_view bytes) {
@@ -161,6 +234,7 @@ inline void volumes(std::string_view bytes) {
   Random random(Bytes(bytes).word());
 
   // 1. Volumes, and whether they may be taken.
+  if (random.chance(1, 3)) rooms::sees_a_box(random);
   std::vector<Faces> drawn;
   std::vector<std::vector<std::vector<rooms::Half_space>>> insides;  // of each the parts
   bool right = true;

@@ -15,6 +15,7 @@ using generate::Family_parameters;
 using generate::Posed_scene;
 using sightline::Exact_point;
 using sightline::Face_id;
+using sightline::Piece;
 using sightline::Point_id;
 using sightline::Polygon_soup;
 using sightline::Rational;
@@ -142,6 +143,47 @@ TEST(Families, are_exactly_degenerate_at_0_ulps_and_not_beside) {
   EXPECT_GT(crossing, 20 * crossing_beside);
   EXPECT_GT(thin, 40u);
   EXPECT_GT(twice, 10u);
+}
+
+TEST(Families, have_planar_faces_with_holes_of_which_most_are_kept) {
+  std::size_t holed = 0, kept = 0, two_holes = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Posed_scene posed = generate::family("flat_holes").make(with(seed));
+    const Scene scene(posed.soup);
+    std::vector<char> has_piece(posed.soup.face_count());
+    for (const Piece& piece : scene.pieces()) has_piece[piece.face] = 1;
+    for (Face_id f = 0; f < posed.soup.face_count(); ++f) {
+      if (posed.soup.loop_count(f) < 2) continue;
+      ++holed;
+      kept += static_cast<std::size_t>(has_piece[f]);
+      two_holes += posed.soup.loop_count(f) > 2 && has_piece[f] != 0;
+    }
+  }
+  EXPECT_GT(holed, 200u);
+  EXPECT_GT(2 * kept, holed);
+  EXPECT_LT(kept, holed) << "some cross";
+  EXPECT_GT(5 * two_holes, holed);
+}
+
+TEST(Families, have_simple_faces_of_many_corners_convex_and_concave_ones) {
+  std::size_t many = 0, convex = 0, sources = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Posed_scene posed = generate::family("many_corners").make(with(seed));
+    const Scene scene(posed.soup);
+    std::vector<std::size_t> pieces(posed.soup.face_count());
+    for (const Piece& piece : scene.pieces()) ++pieces[piece.face];
+    for (Face_id f = 0; f < posed.soup.face_count(); ++f) {
+      if (posed.soup.loop(f).size() < 8) continue;
+      ++many;
+      convex += pieces[f] == 1;
+    }
+    EXPECT_EQ(set_aside(posed, "self-intersecting"), 0u) << seed;
+    sources += posed.source.size() >= 8;
+  }
+  EXPECT_GT(many, 200u);
+  EXPECT_GT(3 * convex, many);
+  EXPECT_LT(3 * convex, 2 * many);
+  EXPECT_GT(sources, 60u);
 }
 
 TEST(Families, tangles_have_faces_that_are_folded_flat) {

@@ -289,7 +289,7 @@ TEST(Fuzz, finds_a_planted_fault_replays_it_by_name_and_makes_it_small) {
   const harness::Subject subject = wrong_now_and_then();
   harness::Fuzz_options options;
   options.scenes = 3000;
-  options.seed = 4;  // of others, what is found may be left with longer numbers
+  options.seed = 1;  // of others, what is found may be left with longer numbers
   harness::Fuzz_summary summary, again;
   const auto found = harness::fuzz(subject, options, summary);
   ASSERT_TRUE(found);
