@@ -33,7 +33,8 @@ class Weak_volume {
 
   /// The parts of its faces that have the inside on one side only, convex, counterclockwise as seen from outside. A
   /// face is in parts only where these look to different sides.
-  const std::vector<std::vector<Exact_point>>& surface() const { return surface_; }
+  const std::vector<std::vector<Exact_point>>& surface() const& { return surface_; }
+  void surface() const&& = delete;  // of what is gone when it is looked at
 
   /// Whether its inside holds points right in front of some part of a convex polygon, right behind where asked for:
   /// then these see it, whatever else there is. Degenerate: a polygon in the surface is in front of what it looks into,

@@ -314,8 +314,8 @@ std::string solid_source(const Posed_scene& posed, const Manner& manner, std::ui
   }
   std::ostringstream out;
   run_with_threads(manner.threads, [&] {
-    for (const auto& polygon : Weak_volume(generate::soup_of(faces), manner.progress).surface())
-      put_points(out, polygon);
+    const Weak_volume volume(generate::soup_of(faces), manner.progress);
+    for (const std::vector<Exact_point>& polygon : volume.surface()) put_points(out, polygon);
   });
   return out.str();
 }

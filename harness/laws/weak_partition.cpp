@@ -4,6 +4,7 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
+#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/weak_outline.h>
@@ -102,17 +103,6 @@ Light light_at(const Scene& scene, std::uint32_t piece, const generate::Points& 
   return seen == whole ? Light::lit : Light::penumbra;
 }
 
-double share_of_chart(const Scene& scene, const Light_partition& partition) {
-  const generate::Points corners = scene.corner_points(scene.pieces()[partition.piece]);
-  const Exact_point of_chart = cross(partition.chart[1], partition.chart[2]);
-  const auto axis = static_cast<std::size_t>(
-      std::find_if(of_chart.begin(), of_chart.end(), [](const Rational& x) { return sgn(x) != 0; }) - of_chart.begin());
-  Rational twice = 0;
-  for (std::size_t k = 2; k < corners.size(); ++k)
-    twice += cross(minus(corners[k - 1], corners[0]), minus(corners[k], corners[0]))[axis];
-  return std::abs(Rational(twice / 2 / of_chart[axis]).get_d());
-}
-
 namespace {
 
 /// Whether it is seen that no curve passes between two points: none has a root on the segment, by what bounds it there.
@@ -193,19 +183,34 @@ std::string flaw_of_places(const Scene& scene, const Occluders& occluders, const
   return "";
 }
 
+/// That a piece is within its chart, and fills enough of it for doubles.
+std::string flaw_of_chart(const Scene& scene, const Light_partition& partition) {
+  const auto& [origin, u, v] = partition.chart;
+  const Exact_point all = cross(u, v);
+  const auto axis = static_cast<std::size_t>(
+      std::find_if(all.begin(), all.end(), [](const Rational& x) { return sgn(x) != 0; }) - all.begin());
+  const generate::Points corners = scene.corner_points(scene.pieces()[partition.piece]);
+  Rational twice = 0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Exact_point p = minus(corners[k], origin), next = minus(corners[(k + 1) % corners.size()], origin);
+    const Place at{Rational(cross(p, v)[axis] / all[axis]), Rational(cross(u, p)[axis] / all[axis])};
+    if (at[0] < 0 || at[0] > 1 || at[1] < 0 || at[1] > 1) return "a piece goes beyond its chart";
+    twice += cross(p, next)[axis] / all[axis];
+  }
+  constexpr double least = 0x1p-20;
+  return std::fabs(twice.get_d()) / 2 < least ? "a sliver of its chart is left to doubles" : "";
+}
+
 /// That shares of a face, and of each of its pieces, add up to all of it.
 std::string flaw_of_shares(const Scene& scene, const std::vector<Light_partition>& pieces) {
-  double least = 1;
-  for (const Light_partition& partition : pieces) least = std::min(least, share_of_chart(scene, partition));
-  const double width = std::max(1e-3, 1e-12 / least);
-  const auto is_whole = [&](const std::array<Bounded, lights>& shares) {
+  const auto is_whole = [](const std::array<Bounded, lights>& shares) {
     double low = 0, high = 0;
     for (const Bounded& share : shares) {
       if (!(0 <= share.low && share.low <= share.high && share.high <= 1)) return false;
       low += share.low;
       high += share.high;
     }
-    constexpr double rounding = 1e-12;
+    constexpr double rounding = 1e-12, width = 1e-3;
     return low <= 1 + rounding && high >= 1 - rounding && high - low < width;
   };
   for (const Light_partition& partition : pieces)
@@ -246,6 +251,19 @@ bool add_face_through(const generate::Points& source, Polygon_soup& soup, Random
   return true;
 }
 
+/// A triangle beside a line through two of the scene's points, 2^-8 to 2^-60 of it wide. Returns whether it has an
+/// area.
+bool add_sliver(Polygon_soup& soup, Random& random) {
+  if (soup.point_count() == 0) return false;
+  const auto any = [&] { return soup.point(static_cast<Point_id>(random.below(soup.point_count()))); };
+  const Exact_point a = any(), b = any(), beside = generate::lattice(random, 2);
+  if (is_zero(cross(minus(b, a), beside))) return false;
+  const Exact_point on = generate::along(a, Rational(generate::integer(random, -1, 5) / 4), minus(b, a)),
+                    c = generate::along(on, generate::power_of_two(-static_cast<int>(random.between(8, 60))), beside);
+  soup.add_face(generate::added(soup, generate::either_way({a, b, c}, random)));
+  return true;
+}
+
 /// A source turned round, or a piece of a scene as one, either way round.
 generate::Points other_source(const generate::Points& source, const Scene& scene, std::uint32_t but, Random& random) {
   const auto piece = static_cast<std::size_t>(random.below(scene.pieces().size()));
@@ -262,15 +280,17 @@ Check partition_check() {
           [](const Posed_scene& posed, const Answer& answer, Random& random) {
             constexpr std::size_t most_pieces = 10;
             Polygon_soup soup = posed.soup;
-            const bool is_bent = random.chance(1, 4) && add_bent_face(soup, random),
+            const bool is_added = random.chance(1, 8)   ? add_sliver(soup, random)
+                                  : random.chance(1, 4) ? add_bent_face(soup, random)
+                                                        : false,
                        is_through = random.chance(1, 4) && add_face_through(posed.source, soup, random);
             const Scene scene(soup);
             constexpr int most_bits = 100;  // an arrangement's roots have some fifty times as many
             if (scene.pieces().empty() || scene.pieces().size() > most_pieces || scene.bits() > most_bits)
               return Outcome::not_applicable();
             const auto given = static_cast<Face_id>(posed.soup.face_count());
-            const Face_id face = is_bent ? given : scene.pieces()[random.below(scene.pieces().size())].face;
-            if (!is_bent && (face >= given || answer.labels[face] == Answer::none)) return Outcome::not_applicable();
+            const Face_id face = is_added ? given : scene.pieces()[random.below(scene.pieces().size())].face;
+            if (!is_added && (face >= given || answer.labels[face] == Answer::none)) return Outcome::not_applicable();
             const Occluders occluders(scene);
             const Weak_source source = weak_source(occluders, posed.source);
             const Light_partitioner partitioner(scene);
@@ -305,12 +325,14 @@ Check partition_check() {
               }
               const std::string flaw = open ? "" : flaw_of_places(scene, occluders, source, piece, partition);
               if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
+              if (const std::string of_chart = flaw_of_chart(scene, partition); !of_chart.empty())
+                return Outcome::failed(face_name(face) + ": " + of_chart);
               pieces.push_back(partition);
             }
             if (pieces.empty()) return Outcome::not_applicable();  // it was set aside
             const std::string flaw = flaw_of_shares(scene, pieces);
             if (!flaw.empty()) return Outcome::failed(face_name(face) + ": " + flaw);
-            if (is_bent || is_through) return Outcome{};  // of which no answer is known
+            if (is_added || is_through) return Outcome{};  // of which no answer is known
             if (some_light ? answer.labels[face] == 1 : !open && answer.labels[face] == 0) return Outcome{};
             if (!some_light && open) return Outcome::undecided();
             return Outcome::failed(face_name(face) + (some_light ? " has light in its partition, but is hidden"

@@ -24,10 +24,6 @@ std::string flaw_of_edges(const Scene& scene, std::uint32_t piece, const generat
 /// light. Exact: yes
 Light light_at(const Scene& scene, std::uint32_t piece, const generate::Points& source, const Exact_point& eye);
 
-/// How much of its chart, which is a box along two axes, a piece fills: areas are told to so many parts of the chart,
-/// so that of slivers across it they are known less well.
-double share_of_chart(const Scene& scene, const Light_partition& partition);
-
 /// That a face is hidden iff all of it is in umbra, of a share of small scenes; one of its faces each.
 Check partition_check();
 /// What is seen from cells, and the edges that bound it, of a share of the smallest.

@@ -3,7 +3,6 @@
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/laws.h>
-#include <sightline/harness/laws/weak_partition.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
 
@@ -31,7 +30,7 @@ std::optional<std::uint32_t> only_piece_of(const Scene& scene, Face_id face) {
   return only;
 }
 
-/// Nothing where a part is undecided, or the piece is a sliver.
+/// Nothing where a part is undecided.
 std::optional<Shares> shares_of(const Scene& scene, std::uint32_t piece, const std::vector<generate::Points>& sources) {
   constexpr std::size_t most_rectangles = 1500;
   std::size_t asked = 0;
@@ -41,8 +40,6 @@ std::optional<Shares> shares_of(const Scene& scene, std::uint32_t piece, const s
   const Light_partition partition = Light_partitioner(scene).partition(piece, sources, options, counters);
   for (const auto& cell : partition.cells)
     if (cell.light == Light::undecided) return std::nullopt;
-  constexpr double sliver = 1e-9;
-  if (share_of_chart(scene, partition) < sliver) return std::nullopt;
   return partition.shares();
 }
 

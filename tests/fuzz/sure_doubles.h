@@ -194,8 +194,12 @@ inline void try_chart_bounds(generate::Random& random) {
     for (Rational& x : p) x *= scale;
     return p;
   };
-  const generate::Points face{point(small), point(small), point(small)},
-      other{point(large), point(large), point(large)};
+  generate::Points face{point(small), point(small), point(small)};
+  const generate::Points other{point(large), point(large), point(large)};
+  if (random.chance(1, 3)) {  // a sliver
+    const Exact_point on = generate::along(face[0], generate::integer(random, 0, 4) / 4, minus(face[1], face[0]));
+    face[2] = generate::along(on, generate::power_of_two(-static_cast<int>(random.between(8, 45))), minus(face[2], on));
+  }
   if (!spans_a_plane(face) || !spans_a_plane(other)) return;
   const Exact_point normal = cross(minus(face[1], face[0]), minus(face[2], face[0]));
   const Scene scene(generate::soup_of({face, other}));

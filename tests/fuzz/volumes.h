@@ -155,10 +155,10 @@ inline bool have_inside(const std::vector<Half_space>& all) {
   return false;
 }
 
-/// Of a box, what is right in front of a small square, and right behind it, is inside iff it is between the box's
-/// walls; also where rays from the square's middle come through an edge or a corner of the box, where they run along a
-/// wall, in the square's plane or in that of a wall that begins behind them. Rays that go (1000003, 7919 k, 104729 +
-/// k^2) are the first to be tried.
+/// Of a box, at times with a cavity, what is right in front of a small square, and right behind it, is inside iff it is
+/// between the box's walls; also where rays from the square's middle come through an edge or a corner of the box, where
+/// they run along a wall, in the square's plane or in that of a wall that begins behind them. Rays that go (1000003,
+/// 7919 k, 104729 + k^2) are the first to be tried.
 inline void sees_a_box(Random& random) {
   const long k = random.chance(2, 3) ? 1 : 2;
   Exact_point ray{1000003, 7919 * k, 104729 + k * k};
@@ -216,11 +216,24 @@ inline void sees_a_box(Random& random) {
     return true;
   };
   Faces walls = generate::box(low, high);
+  bool front = is_inside_beside(1), behind = is_inside_beside(-1);
+  // 4. At times in a cavity: rays that come through the box's edges are not inside.
+  Rational room = 1;
+  for (std::size_t i = 0; i < 3; ++i)
+    room = std::min({room, Rational(middle[i] - low[i]), Rational(high[i] - middle[i])});
+  if (room * 64 > 1 && random.chance(1, 2)) {
+    Exact_point from = middle, to = middle;
+    for (std::size_t i = 0; i < 3; ++i) {
+      from[i] -= room / 2;
+      to[i] += room / 2;
+    }
+    for (const Points& wall : generate::box(from, to)) walls.push_back(generate::reversed(wall));
+    front = behind = false;
+  }
   random.shuffle(walls);
   if (random.chance(1, 2))
     for (Points& wall : walls) wall = generate::reversed(wall);
   const Weak_volume volume(generate::soup_of(walls));
-  const bool front = is_inside_beside(1), behind = is_inside_beside(-1);
   require(volume.sees_from_within(square, false) == front,
           "what is right in front of a square is inside a box iff it is between its walls");
   require(volume.sees_from_within(square, true) == behind,

@@ -30,8 +30,7 @@ struct Light_partition {
   struct Cell {
     Light light;
     std::array<Rational, 2> at;  ///< a point of it
-    /// As a share of the piece. Where a sliver fills only some 10^-k of its chart, bounds are 10^(k - 15) apart or so.
-    Bounded area;
+    Bounded area;                ///< as a share of the piece
     /// The edges that bound what is seen of each source, where all borders are asked for: two points on each.
     std::vector<std::vector<std::array<Exact_point, 2>>> edges;
   };

@@ -14,6 +14,29 @@ bool is_square(const Integer& n, Integer& root) {
   return true;
 }
 
+constexpr long few_bits = 3;
+
+Integer floor_of(const Rational& x) {
+  Integer floor;
+  mpz_fdiv_q(floor.get_mpz_t(), x.get_num_mpz_t(), x.get_den_mpz_t());
+  return floor;
+}
+
+/// k with 2^k less than a range's width. Pre: it has one.
+long power_below(const std::array<Rational, 2>& range) {
+  const Rational width = range[1] - range[0];
+  return static_cast<long>(bit_length(width.get_num())) - static_cast<long>(bit_length(width.get_den())) - 1;
+}
+
+Rational area(const std::vector<std::array<Rational, 2>>& corners) {
+  Rational twice = 0;
+  for (std::size_t n = 0; n < corners.size(); ++n) {
+    const auto &p = corners[n], &q = corners[(n + 1) % corners.size()];
+    twice += p[0] * q[1] - p[1] * q[0];
+  }
+  return abs(twice) / 2;
+}
+
 /// The line a x + b y + c = 0.
 Plane_curve canonical_line(const Integer& c, const Integer& a, const Integer& b) {
   Plane_curve line{{c, a, b, 0, 0, 0}};
@@ -95,34 +118,85 @@ Plane_chart::Plane_chart(const Near_frame& frame, const Near_polygon& polygon, c
     if (abs(plane.exact[k]) > abs(plane.exact[k_])) k_ = k;
   i_ = (k_ + 1) % 3;
   j_ = (k_ + 2) % 3;
-  // The least box of whole numbers around the polygon.
-  const std::array<std::size_t, 2> axes{i_, j_};
+  // 1. The least box of whole numbers around the polygon, or one that leans.
+  std::vector<std::array<Rational, 2>> corners;
+  for (const Near_point& corner : polygon) corners.push_back(place(corner.exact));
+  for (std::size_t a = 0; a < 2; ++a) set_range(a, corners, 0);
+  const Rational share = area(corners) / (wide_[0] * wide_[1]);
+  constexpr int sliver = 20;
+  if (times_power(share, sliver) < 1) lean(corners);
   for (std::size_t a = 0; a < 2; ++a) {
-    Integer high;
-    for (std::size_t n = 0; n < polygon.size(); ++n) {
-      const Integer &p = polygon[n].exact[axes[a]], &w = polygon[n].exact[3];
-      Integer floor, ceiling;
-      mpz_fdiv_q(floor.get_mpz_t(), p.get_mpz_t(), w.get_mpz_t());
-      mpz_cdiv_q(ceiling.get_mpz_t(), p.get_mpz_t(), w.get_mpz_t());
-      if (n == 0 || floor < low_[a]) low_[a] = floor;
-      if (n == 0 || ceiling > high) high = ceiling;
-    }
-    wide_[a] = high - low_[a];
-    near_low_[a] = frame.near(low_[a], 1);
-    near_wide_[a] = frame.near(wide_[a], 1);
+    near_low_[a] = frame.near(low_[a].get_num(), low_[a].get_den());
+    near_wide_[a] = frame.near(wide_[a].get_num(), wide_[a].get_den());
   }
+  near_slope_ = slope_.get_d();
+  // 2. Its corner and its sides in space, over a common denominator.
+  std::array<std::array<Rational, 2>, 2> sides{{{wide_[0], 0}, {0, wide_[1]}}};
+  sides[along_][1 - along_] = slope_ * wide_[along_];
+  Integer all = lcm(low_[0].get_den(), low_[1].get_den());
+  for (const auto& side : sides)
+    for (const Rational& x : side) all = lcm(all, x.get_den());
   const int sign = sgn(plane.exact[k_]);
   const auto& h = plane.exact;
-  const auto set = [&](Homogeneous& p, const Integer& x, const Integer& y, const Integer& w) {
+  const auto set = [&](Homogeneous& p, const std::array<Rational, 2>& at, const Integer& w) {
+    const Integer x = at[0].get_num() * (all / at[0].get_den()), y = at[1].get_num() * (all / at[1].get_den());
     p[i_] = sign * h[k_] * x;
     p[j_] = sign * h[k_] * y;
     p[k_] = -sign * (h[i_] * x + h[j_] * y + h[3] * w);
     p[3] = sign * h[k_] * w;
   };
-  set(zero_, low_[0], low_[1], 1);
-  set(x_, wide_[0], 0, 0);
-  set(y_, 0, wide_[1], 0);
+  set(zero_, low_, all);
+  set(x_, sides[0], 0);
+  set(y_, sides[1], 0);
   near_plane_ = near(plane);
+}
+
+/// The least range of multiples of 2^power that holds a coordinate of all corners, along a lean box's own axes.
+void Plane_chart::set_range(std::size_t axis, const Corners& corners, long power) {
+  const auto [low, high] = range_of(axis, corners);
+  low_[axis] = times_power(Rational(floor_of(times_power(low, -power))), power);
+  wide_[axis] = times_power(Rational(-floor_of(times_power(-high, -power))), power) - low_[axis];
+}
+
+std::array<Rational, 2> Plane_chart::range_of(std::size_t axis, const Corners& corners) const {
+  std::array<Rational, 2> range;
+  for (std::size_t n = 0; n < corners.size(); ++n) {
+    Rational x = corners[n][axis];
+    if (axis != along_ && sgn(slope_) != 0) x -= slope_ * (corners[n][along_] - low_[along_]);
+    if (n == 0 || x < range[0]) range[0] = x;
+    if (n == 0 || x > range[1]) range[1] = x;
+  }
+  return range;
+}
+
+/// Turns the box's sides across its longer way so that a sliver fills some of it.
+void Plane_chart::lean(const Corners& corners) {
+  // 1. The way from one corner to another that is longest in the box.
+  std::array<double, 2> way{0, 0};
+  std::array<Rational, 2> longest;
+  for (std::size_t n = 0; n < corners.size(); ++n)
+    for (std::size_t m = 0; m < n; ++m) {
+      std::array<double, 2> step;
+      for (std::size_t a = 0; a < 2; ++a)
+        step[a] = std::fabs(Rational((corners[n][a] - corners[m][a]) / wide_[a]).get_d());
+      if (std::max(step[0], step[1]) <= std::max(way[0], way[1])) continue;
+      way = step;
+      for (std::size_t a = 0; a < 2; ++a) longest[a] = corners[n][a] - corners[m][a];
+    }
+  along_ = way[0] >= way[1] ? 0 : 1;
+  set_range(along_, corners, power_below(range_of(along_, corners)) - few_bits);
+  // 2. Its slope and the range beside it, in few bits: what they are rounded by is little beside the sliver's width.
+  slope_ = longest[1 - along_] / longest[along_];
+  const long width = power_below(range_of(1 - along_, corners));
+  const long finest = width - few_bits - static_cast<long>(bit_length(floor_of(wide_[along_]))) - 1;
+  slope_ = times_power(Rational(floor_of(times_power(slope_, -finest))), finest);
+  set_range(1 - along_, corners, width - few_bits);
+}
+
+std::array<Rational, 2> Plane_chart::place(const Homogeneous& p) const {
+  std::array<Rational, 2> found{Rational(p[i_], p[3]), Rational(p[j_], p[3])};
+  for (Rational& x : found) x.canonicalize();
+  return found;
 }
 
 Homogeneous Plane_chart::point(const Rational& x, const Rational& y) const {
@@ -139,9 +213,9 @@ Homogeneous Plane_chart::point(const Rational& x, const Rational& y) const {
 }
 
 std::array<Rational, 2> Plane_chart::at(const Homogeneous& p) const {
-  std::array<Rational, 2> found{Rational(p[i_] - low_[0] * p[3], wide_[0] * p[3]),
-                                Rational(p[j_] - low_[1] * p[3], wide_[1] * p[3])};
-  for (Rational& x : found) x.canonicalize();
+  std::array<Rational, 2> found = place(p);
+  if (sgn(slope_) != 0) found[1 - along_] -= slope_ * (found[along_] - low_[along_]);
+  for (std::size_t a = 0; a < 2; ++a) found[a] = (found[a] - low_[a]) / wide_[a];
   return found;
 }
 
@@ -183,15 +257,23 @@ Plane_chart::Bounds Plane_chart::bounds(const std::array<Near<6>, 3>& lines) con
     const double error = homogeneous_detail::error_of_products(3, near_plane_, line), w = std::fabs(p[3]) - error;
     if (!(w > 0) || (p[3] > 0 ? 1 : -1) * sign < 0) return all;
     sign = p[3] > 0 ? 1 : -1;
-    const auto is_told = [&](std::size_t axis, std::size_t a, double& low, double& high) {
-      const double q = p[axis] / p[3], x = (q - near_low_[a]) / near_wide_[a];
-      const double slack = 1.001 * (error * (1 + std::fabs(q)) / w) / near_wide_[a] +
-                           0x1p-48 * (std::fabs(q) + std::fabs(near_low_[a])) / near_wide_[a] + 0x1p-40;
+    const std::array<double, 2> q{p[i_] / p[3], p[j_] / p[3]};
+    const auto is_told = [&](std::size_t a, double& low, double& high) {
+      double at = q[a], of_products = 1 + std::fabs(q[a]), of_sums = std::fabs(q[a]) + std::fabs(near_low_[a]);
+      if (a != along_ && near_slope_ != 0) {
+        const double size = std::fabs(near_slope_);
+        at -= near_slope_ * (q[along_] - near_low_[along_]);
+        of_products += size * (1 + std::fabs(q[along_]));
+        of_sums += size * (std::fabs(q[along_]) + std::fabs(near_low_[along_]));
+      }
+      const double x = (at - near_low_[a]) / near_wide_[a];
+      const double slack =
+          1.001 * (error * of_products / w) / near_wide_[a] + 0x1p-48 * of_sums / near_wide_[a] + 0x1p-40;
       low = std::min(low, x - slack);
       high = std::max(high, x + slack);
       return x - slack <= x + slack;  // neither is NaN, as of a width that underflows
     };
-    if (!is_told(i_, 0, found.x0, found.x1) || !is_told(j_, 1, found.y0, found.y1)) return all;
+    if (!is_told(0, found.x0, found.x1) || !is_told(1, found.y0, found.y1)) return all;
   }
   return found;
 }

@@ -33,8 +33,9 @@ struct Plane_curve {
 /// no more than one real point is none; a double line is one; all of the plane is none. Exact: yes. Proof: P-86
 std::vector<Plane_curve> components(const Plane_curve& curve);
 
-/// An affine chart of a plane in which a polygon's bounding box is [0, 1] x [0, 1]; rational. Pre: the polygon has an
-/// inside.
+/// An affine chart of a plane in which [0, 1] x [0, 1] holds a polygon: its bounding box along two axes, or, of a
+/// sliver that fills less than 2^-20 of that, a parallelogram along its longest way of which it fills a tenth or more;
+/// rational. Pre: the polygon has an inside.
 class Plane_chart {
  public:
   Plane_chart(const Near_frame& frame, const Near_polygon& polygon, const Near_plane& plane);
@@ -57,10 +58,20 @@ class Plane_chart {
   Bounds bounds(const std::array<Near<6>, 3>& lines) const;
 
  private:
-  std::size_t i_, j_, k_;              // axes of x and of y, and the other one
-  Homogeneous zero_, x_, y_;           // points are zero + x times x_ + y times y_
-  std::array<Integer, 2> low_, wide_;  // grid coordinates of the box along i_ and j_
+  using Corners = std::vector<std::array<Rational, 2>>;
+  std::array<Rational, 2> place(const Homogeneous& p) const;
+  std::array<Rational, 2> range_of(std::size_t axis, const Corners& corners) const;
+  void set_range(std::size_t axis, const Corners& corners, long power);
+  void lean(const Corners& corners);
+
+  std::size_t i_, j_, k_;               // axes of x and of y, and the other one
+  Homogeneous zero_, x_, y_;            // points are zero + x times x_ + y times y_
+  std::array<Rational, 2> low_, wide_;  // grid coordinates of the box along i_ and j_
+  // A lean box's coordinate across `along_` is less by slope_ times the way along it.
+  std::size_t along_ = 0;
+  Rational slope_ = 0;
   std::array<double, 2> near_low_, near_wide_;
+  double near_slope_ = 0;
   Near<4> near_plane_;
 };
 
