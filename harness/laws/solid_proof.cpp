@@ -103,6 +103,20 @@ bool copy_any(std::vector<Solid_certificate::Fragment>& fragments, Random& rando
   return true;
 }
 
+/// Makes two of a fragment that several faces have, one upon the other, each with a part; nothing where there is none.
+bool part_any(std::vector<Solid_certificate::Fragment>& fragments, Random& random) {
+  std::vector<std::size_t> several;
+  for (std::size_t i = 0; i < fragments.size(); ++i)
+    if (fragments[i].parts.size() > 1) several.push_back(i);
+  if (several.empty()) return false;
+  Solid_certificate::Fragment& one = fragments[several[random.below(several.size())]];
+  Solid_certificate::Fragment other = one;
+  other.parts = {one.parts.back()};
+  one.parts.pop_back();
+  fragments.push_back(std::move(other));
+  return true;
+}
+
 std::string claim_text(const Solid_certificate& certificate) {
   std::ostringstream out;
   write_solid_certificate(out, certificate);
@@ -137,7 +151,7 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& given, Random& 
   const std::size_t i = random.below(claim.fragments.size());
   Solid_certificate::Fragment& fragment = claim.fragments[i];
   std::string how;
-  switch (is_all_dropped ? random.between(8, 9) : random.between(0, 9)) {
+  switch (is_all_dropped ? random.between(8, 9) : random.between(0, 10)) {
     case 0:
       how = "another fate";
       fragment.fate = static_cast<Solid_certificate::Fate>((static_cast<std::size_t>(fragment.fate) + 1) % 3);
@@ -176,9 +190,13 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& given, Random& 
       how = "two fragments joined to one";
       if (!join_any(claim.fragments, random)) return {};
       break;
-    default:
+    case 9:
       how = "what is so of a neighbour";
       if (!copy_any(claim.fragments, random)) return {};
+      break;
+    default:
+      how = "a fragment of two faces as two";
+      if (!part_any(claim.fragments, random)) return {};
   }
   if (verify_solids(solids, claim, nullptr, verifying).accepted) return "a forged certificate is accepted: " + how;
   return {};

@@ -16,8 +16,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -75,6 +78,37 @@ std::string flaw_of_places(const Polygon_soup& before, const Rounded_surface& af
 bool is_held(const Rational& x, Rounding to) {
   const double near = x.get_d();
   return exact(near) == x && (to == Rounding::to_double || static_cast<double>(static_cast<float>(near)) == near);
+}
+
+/// The nearest number of a kind, of two the even one: of three in a row about it.
+template <class Number, class Bits>
+double nearest_of(const Rational& x) {
+  constexpr Number infinity = std::numeric_limits<Number>::infinity();
+  const auto about = static_cast<Number>(x.get_d());
+  Number best = about;
+  for (const Number other : {std::nextafter(about, -infinity), std::nextafter(about, infinity)}) {
+    if (!std::isfinite(other)) continue;
+    const int nearer = cmp(abs(x - exact(static_cast<double>(other))), abs(x - exact(static_cast<double>(best))));
+    if (nearer < 0 || (nearer == 0 && std::bit_cast<Bits>(other) % 2 == 0)) best = other;
+  }
+  return static_cast<double>(best);
+}
+
+/// That corners of a rounded surface are at the nearest numbers of those before, all of them.
+std::string flaw_of_nearest(const Polygon_soup& before, const Polygon_soup& after, Rounding to) {
+  const auto corners_of = [](const Polygon_soup& soup, const auto& place) {
+    std::set<Exact_point> places;
+    for (Face_id f = 0; f < soup.face_count(); ++f)
+      for (const Point_id p : soup.loop(f)) places.insert(place(soup.point(p)));
+    return places;
+  };
+  const auto nearest = [&](Exact_point p) {
+    for (Rational& x : p)
+      x = exact(to == Rounding::to_double ? nearest_of<double, std::uint64_t>(x) : nearest_of<float, std::uint32_t>(x));
+    return p;
+  };
+  const bool are_nearest = corners_of(before, nearest) == corners_of(after, [](const Exact_point& p) { return p; });
+  return are_nearest ? "" : "corners are not at the nearest numbers";
 }
 
 /// The step that the numbers have at one, towards 0.
@@ -287,6 +321,7 @@ std::string flaw_of_rounded(const Polygon_soup& exact, Rounding to, Random& rand
   } catch (const std::domain_error&) {  // beyond what the numbers hold
     return {};
   }
+  if (const std::string flaw = flaw_of_nearest(exact, all[0].soup, to); !flaw.empty()) return "rounded: " + flaw;
   for (const Rounded_surface& near : all) {
     const std::string name = near.coarser > 0  ? "snapped to a coarser grid: "
                              : near.rounds > 0 ? "snapped: "

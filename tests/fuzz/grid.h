@@ -5,6 +5,7 @@
 
 #include "support.h"
 
+#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/kernel/predicates.h>
@@ -155,7 +156,13 @@ inline void grid(std::string_view bytes) {
       on[k] += (points[3 * piece.face + 1][k] - corner[k]) / 7 + (points[3 * piece.face + 2][k] - corner[k]) * 5 / 3;
     }
     beside[random.below(3)] += generate::ratio(1, 1 + static_cast<std::int64_t>(random.below(1000)));
-    for (const Exact_point& p : {a, middle, beside, on, drawn.point()}) check_located(scene, p, piece.support);
+    Exact_point beyond = a;  // of doubles, along some axis or all
+    const std::uint64_t axes = 1 + random.below(7);
+    for (std::size_t k = 0; k < 3; ++k)
+      if ((axes >> k) % 2 != 0)
+        beyond[k] +=
+            generate::integer(random, -3, 3) * generate::power_of_two(static_cast<int>(random.between(990, 1100)));
+    for (const Exact_point& p : {a, middle, beside, on, beyond, drawn.point()}) check_located(scene, p, piece.support);
   }
 }
 

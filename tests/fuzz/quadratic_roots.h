@@ -46,14 +46,18 @@ inline void quadratic_roots(std::string_view bytes) {
   std::array<Quadratic, 2> f;
   for (Quadratic& q : f)
     for (Integer& c : q.c) c = from.integer(bits);
+  Quadratic other;  // whose sign is asked, at roots of the two
+  for (Integer& c : other.c) c = from.integer(bits);
   if (from.below(4) == 0) {  // of one root in common: (s - k) (a s + b), and times a constant
     const Integer k = f[0].c[0], a = f[0].c[1], b = f[0].c[2], factor = from.integer(3);
     f[0].c = {Integer(-k * b), Integer(b - k * a), a};
     f[1].c = {Integer(factor * f[0].c[0]), Integer(factor * f[0].c[1]), Integer(factor * f[0].c[2])};
+    const Integer first = other.c[0], second = other.c[1];
+    if (from.below(2) == 0) other.c = {Integer(-k * first), Integer(first - k * second), second};  // of one of them
   }
   int widest = 1;
-  for (const Quadratic& q : f)
-    for (const Integer& c : q.c) widest = std::max(widest, static_cast<int>(bit_length(c)));
+  for (const Quadratic* q : std::array<const Quadratic*, 3>{&f[0], &f[1], &other})
+    for (const Integer& c : q->c) widest = std::max(widest, static_cast<int>(bit_length(c)));
   const unsigned long places = places_for(widest);
   const Narrow zero{0}, one{Integer(1) << places};
   const Parameter_range whole{Quadratic_root(0), Quadratic_root(1)};
@@ -71,6 +75,17 @@ inline void quadratic_roots(std::string_view bytes) {
     for (std::size_t k = 0; k < found.size(); ++k) all.emplace_back(found[k], truth[k]);
     if (!q.is_zero() && q.certain_sign() != 0)
       require(q.sign(Rational(1, 3)) != -q.certain_sign() && truth.empty(), "a certain sign is that of all values");
+  }
+
+  // Signs there: those beside them, unless there is a root.
+  for (const auto& [a, near_a] : all) {
+    const std::vector<Narrow> zeros = narrow_roots(other, places);
+    const bool is_zero = other.is_zero() || std::any_of(zeros.begin(), zeros.end(),
+                                                        [&, &near = near_a](const Narrow& r) { return r.same(near); });
+    Rational beside(near_a.low, Integer(1) << places);
+    beside.canonicalize();
+    require(a.sign_of(other) == (is_zero ? 0 : other.sign(beside)),
+            "a polynomial's sign at a root is the one beside it");
   }
 
   // Comparison, and what is between.
