@@ -1,5 +1,7 @@
 #include <sightline/harness/generate/many_corners.h>
 
+#include <sightline/harness/generate/gap_drafts.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -112,6 +114,12 @@ Exact_point off_the_plane(const Points& face, Random& random) {
   }
 }
 
+Holed_face moved(Holed_face face, const Rational& t, const Exact_point& d) {
+  face.outer = view_drafts::moved(std::move(face.outer), t, d);
+  for (Points& hole : face.holes) hole = view_drafts::moved(std::move(hole), t, d);
+  return face;
+}
+
 }  // namespace
 
 Points round_face(Random& random) {
@@ -140,17 +148,9 @@ Faces many_corners(Random& random) {
     const std::size_t k = random.below(face.size()), next = (k + 1) % face.size();
     Points other;
     switch (random.below(4)) {
-      case 0: {  // in its plane
-        const Exact_point d = step(face, random);
-        for (const Exact_point& p : face) other.push_back(along(p, ratio(1, 2), d));
-        break;
-      }
-      case 1: {  // before or behind it
-        const Exact_point d = off_the_plane(face, random);
-        for (const Exact_point& p : face) other.push_back(along(p, ratio(1, 2), d));
-        break;
-      }
-      case 2: {  // a wall upon an edge
+      case 0: other = view_drafts::moved(face, ratio(1, 2), step(face, random)); break;           // in its plane
+      case 1: other = view_drafts::moved(face, ratio(1, 2), off_the_plane(face, random)); break;  // before or behind it
+      case 2: {                                                                                   // a wall upon an edge
         const Exact_point d = off_the_plane(face, random);
         other = {face[k], face[next], along(face[next], 1, d), along(face[k], 1, d)};
         break;
@@ -221,20 +221,8 @@ std::vector<Holed_face> windows(Random& random, const Rational& gap) {
       case 2:  // a wall upon its edge
         other.outer = {hole[0], hole[1], along(hole[1], 1, d), along(hole[0], 1, d)};
         break;
-      case 3:  // the whole face once more, before or behind it
-        other = face;
-        for (Exact_point& p : other.outer) p = along(p, ratio(1, 2), d);
-        for (Points& loop : other.holes)
-          for (Exact_point& p : loop) p = along(p, ratio(1, 2), d);
-        break;
-      case 4: {  // and in its plane
-        const Exact_point aside = step(hole, random);
-        other = face;
-        for (Exact_point& p : other.outer) p = along(p, 1, aside);
-        for (Points& loop : other.holes)
-          for (Exact_point& p : loop) p = along(p, 1, aside);
-        break;
-      }
+      case 3: other = moved(face, ratio(1, 2), d); break;         // the whole face once more, before or behind it
+      case 4: other = moved(face, 1, step(hole, random)); break;  // and in its plane
       default: other.outer = any_face(random);
     }
     faces.push_back(std::move(other));
