@@ -64,7 +64,7 @@ void random_triangles(std::size_t most, std::size_t queries, std::ostream& csv) 
       total += found - ready;
       worst = std::max(worst, found - ready);
       ++answers[static_cast<std::size_t>(answer.status)];
-      steps += answer.proof.size();
+      steps += answer.all_steps().size();
       // A certificate for this pair alone: nothing is claimed about other faces.
       Weakly_visible all;
       for (Face_id f = 0; f < soup.face_count(); ++f)

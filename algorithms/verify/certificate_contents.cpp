@@ -178,9 +178,10 @@ Along_certificate::Node along_node(const Json& value, const At& at) {
 // ---- Tables
 
 std::string name_of(const Place& place) {
-  static constexpr const char* keys[] = {"fragments", "pieces", "parts", "field", "empty", "sources"};
+  static constexpr const char* keys[] = {"fragments", "pieces", "parts", "field", "empty", "sources", "hidden"};
   const std::string entry = place.list == Place::field ? "field" : entry_name(keys[place.list], place.entry);
-  return entry_name(entry + (place.list <= Place::parts ? ".vertices" : ""), place.corner);
+  const char* const member = place.list <= Place::parts ? ".vertices" : place.list == Place::hidden ? ".target" : "";
+  return entry_name(entry + member, place.corner);
 }
 
 }  // namespace
@@ -212,6 +213,7 @@ Exact_point& Contents::at(const Place& place) {
     case Place::parts: return visible_.parts[place.entry].vertices[place.corner];
     case Place::field: return visible_.field[place.corner];
     case Place::empty: return visible_.empty[place.entry][place.corner];
+    case Place::hidden: return weak_.hidden[place.entry].target[place.corner];
     default: return weak_.sources[place.entry][place.corner];
   }
 }
@@ -276,7 +278,7 @@ void Contents::take_part(const Json& entry, const At& at) {
   visible_.parts.push_back(std::move(part));
 }
 
-/// {fragment, source, proof}, also more fragments.
+/// {fragment, source, proof}, also more fragments, and the target that holds them.
 void Contents::take_hidden(const Json& entry, const At& at) {
   Weak_certificate::Hidden hidden;
   hidden.fragment = number32(member(entry, "fragment", at), at + ".fragment");
@@ -286,6 +288,8 @@ void Contents::take_hidden(const Json& entry, const At& at) {
   if (entry.contains("also"))
     for (const Json& number : array(entry["also"], at + ".also"))
       hidden.also.push_back(number32(number, (at + ".also")[hidden.also.size()]));
+  if (entry.contains("target"))
+    hidden.target = points(entry["target"], at + ".target", points_, Place::hidden, weak_.hidden.size());
   weak_.hidden.push_back(std::move(hidden));
 }
 
@@ -463,7 +467,7 @@ const std::array<Kind, 5>& kinds() {
       {{"order", '2', {"eye"}, {"on_view", "depths", "cuts"}},
        {"graph", '2', {"sizes", "arcs"}, {}},
        {"see", '2', {"eye", "parts", "empty"}, {"field", "rays"}},
-       {"weak", '3', {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}},
+       {"weak", '4', {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}},
        {"along", '2', {"path", "moments", "faces", "proofs"}, {"two_sided"}}}};
   return all;
 }

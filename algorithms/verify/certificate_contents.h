@@ -29,7 +29,7 @@ class At;
 
 /// Where a number stands that names a point of a table.
 struct Place {
-  enum List : std::uint8_t { fragments, pieces, parts, field, empty, sources } list;
+  enum List : std::uint8_t { fragments, pieces, parts, field, empty, sources, hidden } list;
   std::size_t entry, corner;
 };
 /// A list of points that others name by their places in it, perhaps before it is read.

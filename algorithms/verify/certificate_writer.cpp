@@ -255,7 +255,7 @@ void write_certificate(std::ostream& out, const Visible_certificate& certificate
 }
 
 void write_certificate(std::ostream& out, const Weak_certificate& certificate) {
-  write_begin(out, "sightline weak 3");
+  write_begin(out, "sightline weak 4");
   write_covering(out, certificate);
   out << R"(,"sources":)";
   write_list(out, certificate.sources, [&](const std::vector<Exact_point>& source) { write(out, source); });
@@ -278,6 +278,10 @@ void write_certificate(std::ostream& out, const Weak_certificate& certificate) {
     if (!entry.also.empty()) {
       out << R"(,"also":)";
       write_numbers(out, std::span(entry.also));
+    }
+    if (!entry.target.empty()) {
+      out << R"(,"target":)";
+      write(out, entry.target);
     }
     out << '}';
   });

@@ -120,7 +120,9 @@ class Trees {
   void check(std::size_t k, const std::function<void()>& step);
 
  private:
-  void check_for(std::size_t fragment, const std::vector<Node>& proof);
+  /// Rejects unless the target is a convex polygon in the plane of the fragments, and holds them. Proof: P-72f
+  void check_target(const Weak_certificate::Hidden& hidden);
+  void check_tree(const Corners& target, const std::vector<Node>& proof);
   std::string entry() const {
     return name("hidden", entry_) + " (" + name("face", certificate_.fragments[fragment_].face) + ")";
   }
@@ -199,17 +201,50 @@ void Trees::check(std::size_t k, const std::function<void()>& step) {
   entry_ = k;
   source_ = hidden.source;
   step_ = &step;
+  hidden.for_each_fragment([&](std::size_t fragment) {
+    if (fragment >= fragments_.size())
+      reject(name("hidden", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
+    fragment_ = fragment;
+    if (source_ >= sources_.size())
+      reject(entry() + " names source " + std::to_string(source_) + ", which there is not", {fragment});
+  });
+  fragment_ = hidden.fragment;
+  if (!hidden.target.empty()) {
+    check_target(hidden);
+    fragment_ = hidden.fragment;
+    return check_tree(Outline(hidden.target).corners, hidden.proof);
+  }
   if (!hidden.also.empty() && hidden.proof.size() != 1)
-    reject(name("hidden", k) + " is of several fragments, but its proof is not one leaf");
-  hidden.for_each_fragment([&](std::size_t fragment) { check_for(fragment, hidden.proof); });
+    reject(name("hidden", k) + " is of several fragments, but its proof is neither one leaf nor of a polygon");
+  hidden.for_each_fragment([&](std::size_t fragment) {
+    fragment_ = fragment;
+    check_tree(fragments_[fragment].corners, hidden.proof);
+  });
 }
 
-void Trees::check_for(std::size_t fragment, const std::vector<Node>& proof) {
-  if (fragment >= fragments_.size())
-    reject(name("hidden", entry_) + " names fragment " + std::to_string(fragment) + ", which there is not");
-  fragment_ = fragment;
-  if (source_ >= sources_.size())
-    reject(entry() + " names source " + std::to_string(source_) + ", which there is not", {fragment});
+void Trees::check_target(const Weak_certificate::Hidden& hidden) {
+  const auto refuse_target = [&](const std::string& why) { reject(entry() + why, {fragment_}); };
+  if (!canonical(hidden.target)) refuse_target(" has a target with a vertex that is not in canonical numbers");
+  const Homogeneous& plane = fragments_[hidden.fragment].plane;
+  if (const std::string fault = not_convex(homogeneous(hidden.target), plane); !fault.empty())
+    refuse_target(", its target " + fault);
+  const Outline target(hidden.target);
+  hidden.for_each_fragment([&](std::size_t fragment) {
+    fragment_ = fragment;
+    (*step_)();
+    const Outline& own = fragments_[fragment];
+    if (!own.in_plane(target.plane) || side(target.plane, own.upwards()) <= 0)
+      refuse_target(" is not in the plane of its target, or looks to the other side");
+    if (own.corners.size() > most_products / target.corners.size())
+      refuse_target(" and its target have too many corners to be checked");
+    for (const Homogeneous& corner : own.corners)
+      if (crossing(line_through(target.upwards(), corner), target.corners) < 0)
+        refuse_target(" has a corner outside of its target");
+  });
+}
+
+void Trees::check_tree(const Corners& target, const std::vector<Node>& proof) {
+  const std::size_t fragment = fragment_;
 
   /// The second part of an inner node, to be gone on with when the first is done.
   struct Second {
@@ -219,8 +254,8 @@ void Trees::check_for(std::size_t fragment, const std::vector<Node>& proof) {
     int sign;
   };
   std::vector<Second> waiting;
-  std::shared_ptr<Cell> cell = cell_of(std::make_shared<const Corners>(sources_[source_].corners),
-                                       std::make_shared<const Corners>(fragments_[fragment].corners), 0);
+  std::shared_ptr<Cell> cell =
+      cell_of(std::make_shared<const Corners>(sources_[source_].corners), std::make_shared<const Corners>(target), 0);
   for (std::size_t i = 0;; ++i) {
     if (i == proof.size()) reject(entry() + " ends before each of its cells has a leaf", {fragment});
     if (i % 1024 == 0) (*step_)();

@@ -54,7 +54,10 @@ struct Weak_certificate : Covering {
   struct Hidden {
     std::size_t fragment = 0, source = 0;
     std::vector<Node> proof;
-    std::vector<std::size_t> also = {};  ///< fragments of which a proof of one leaf holds as well
+    std::vector<std::size_t> also = {};  ///< fragments of which a proof of one leaf, or of a polygon, holds as well
+    /// A convex polygon that holds all of these fragments, in their plane and looking to where they do, of which the
+    /// proof is; empty: it is of the fragments themselves.
+    std::vector<Exact_point> target = {};
 
     /// Calls visit(fragment) for the fragment, then for the others.
     template <class Visit>
@@ -71,7 +74,8 @@ struct Weak_certificate : Covering {
 /// Whether the certificate proves which faces can be seen from the sources: (1) the fragments are the scene (as for
 /// orders); (2) each sightline goes from the inside of its source, to its front, to the inside of its fragment, from
 /// its front (with `two_sided`, or its back), and no fragment meets it, nor an end of it but in the plane of the source
-/// or of the fragment; (3) each tree of a fragment and a source shows that almost no line between them is free; (4)
+/// or of the fragment; (3) each tree of a fragment, or of a polygon that holds it, and
+/// a source shows that almost no line between them is free; (4)
 /// each face that is drawn has a sightline, or a tree for each of its fragments and each source, or is undecided.
 /// Degenerate: contact of measure zero is not visibility; a source and a fragment in one plane do not see each other.
 /// Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line; where accepted, the counts

@@ -25,7 +25,14 @@ Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vec
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> numbers;
   // Of each source what one fragment blocks, and what is away, is told at once.
   std::map<std::tuple<std::uint32_t, Weak_step::Kind, std::uint32_t>, std::size_t> leaves;
+  std::map<std::pair<std::uint32_t, const Shared_proof*>, std::size_t> shared;
   const auto told_with_another = [&](const Weakly_visible::Pair& pair) {
+    if (pair.answer.shared) {
+      const auto [place, is_new] =
+          shared.try_emplace({pair.source, pair.answer.shared.get()}, certificate.hidden.size());
+      if (!is_new) certificate.hidden[place->second].also.push_back(pair.piece);
+      return !is_new;
+    }
     if (pair.answer.proof.size() != 1) return false;
     const Weak_step& leaf = pair.answer.proof[0];
     if (leaf.kind != Weak_step::Kind::away && leaf.kind != Weak_step::Kind::blocked) return false;
@@ -41,7 +48,7 @@ Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vec
       continue;
     }
     const auto line_number = [&](std::uint32_t line) {
-      const Weak_line& edge = pair.answer.lines[line];
+      const Weak_line& edge = pair.answer.all_lines()[line];
       const auto [place, is_new] = numbers.try_emplace({edge.piece, edge.corner}, certificate.lines.size());
       if (is_new) certificate.lines.push_back({edge.piece, edge.corner});
       return place->second;
@@ -50,7 +57,9 @@ Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vec
     Weak_certificate::Hidden& hidden = certificate.hidden.emplace_back();
     hidden.fragment = pair.piece;
     hidden.source = pair.source;
-    for (const Weak_step& step : pair.answer.proof) {
+    if (pair.answer.shared)
+      for (const Near_point& corner : pair.answer.shared->target) hidden.target.push_back(scene.position(corner.exact));
+    for (const Weak_step& step : pair.answer.all_steps()) {
       using Kind = Weak_certificate::Node::Kind;
       Weak_certificate::Node& node = hidden.proof.emplace_back();
       switch (step.kind) {

@@ -192,6 +192,7 @@ Occluders::Occluders(const Scene& scene) : scene_(&scene), frame_(scene), boxes_
     }
     entries_.push_back({planes_[chunk.piece].near, chunk.piece, first, piece.size});
   }
+  list_pieces_at_points();
   if (frame_.has_exact_points()) return;
   rests_.resize(scene.points().size());
   parallel_for(rests_.size(), [&](std::size_t p) {
@@ -199,6 +200,18 @@ Occluders::Occluders(const Scene& scene) : scene_(&scene), frame_(scene), boxes_
     for (int k = 0; k < 3; ++k)
       rests_[p][static_cast<std::size_t>(k)] = frame_.rest(grid(point, k), Integer(1), frame_.near(scene, point, k));
   });
+}
+
+void Occluders::list_pieces_at_points() {
+  const std::vector<Piece>& pieces = scene_->pieces();
+  first_at_.assign(scene_->points().size() + 1, 0);
+  for (const Piece& piece : pieces)
+    for (const Piece_corner& corner : scene_->corners(piece)) ++first_at_[corner.point + 1];
+  for (std::size_t p = 1; p < first_at_.size(); ++p) first_at_[p] += first_at_[p - 1];
+  pieces_at_.resize(first_at_.back());
+  std::vector<std::uint32_t> next(first_at_.begin(), first_at_.end() - 1);
+  for (std::uint32_t i = 0; i < pieces.size(); ++i)
+    for (const Piece_corner& corner : scene_->corners(pieces[i])) pieces_at_[next[corner.point]++] = i;
 }
 
 void Occluders::put_in_order(std::vector<std::uint32_t>& pieces) const {

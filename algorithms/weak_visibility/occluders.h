@@ -49,6 +49,10 @@ class Occluders {
   /// What its coordinates leave, as in Near_point.
   Triple rest_of(std::uint32_t point) const { return rests_.empty() ? Triple{} : rests_[point]; }
   Near_polygon polygon(std::uint32_t piece) const;
+  /// The pieces that have a corner at a point, in order.
+  std::span<const std::uint32_t> pieces_at(std::uint32_t point) const {
+    return {pieces_at_.data() + first_at_[point], first_at_[point + 1] - first_at_[point]};
+  }
   /// Where a piece is: side(h, polygon(piece)). Exact: yes.
   int side_of(std::uint32_t piece, const Near_plane& h) const;
   Exact_pluecker exact_pluecker_of(const std::array<std::uint32_t, 2>& points) const {
@@ -118,6 +122,8 @@ class Occluders {
   /// By rank, each once: as they come from the tree, but for those with several chunks.
   void put_in_order(std::vector<std::uint32_t>& pieces) const;
 
+  void list_pieces_at_points();
+
   Integer grid(std::uint32_t point, int axis) const { return scene_->points().integer(point, axis); }
   Triple near(std::uint32_t point) const {
     return {frame_.near(*scene_, point, 0), frame_.near(*scene_, point, 1), frame_.near(*scene_, point, 2)};
@@ -142,6 +148,7 @@ class Occluders {
   std::vector<std::uint32_t> first_;  // by piece, in the two that follow: in the order of the tree
   std::vector<Triple> corners_;
   std::vector<Pluecker> edges_;
+  std::vector<std::uint32_t> first_at_, pieces_at_;  // by point: of the pieces at it, the first one's place
 };
 
 }  // namespace sightline

@@ -2,89 +2,287 @@
 
 #include <sightline/algorithms/weak_visibility/search/likely_blockers.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
+#include <sightline/algorithms/weak_visibility/search/shared_targets.h>
 #include <sightline/kernel/threads.h>
 #include <sightline/kernel/time_limit.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <iterator>
+#include <memory>
+#include <optional>
 #include <utility>
 
 namespace sightline {
+namespace {
+
+/// One question, in three steps: each pair by itself, but for searches of those that may be hidden together; these;
+/// then what is left of them.
+class Weak_question {
+ public:
+  Weak_question(const Occluders& occluders, const std::vector<Weak_source>& sources, const Weak_options& options);
+
+  Weakly_visible answered();
+
+ private:
+  using Pair = Weakly_visible::Pair;
+  /// Of a face its pairs, until one is visible, and which of them wait for the next step.
+  struct Face {
+    std::uint32_t begin, end;  // of its pieces
+    Weak_status status = Weak_status::hidden;
+    std::vector<Pair> pairs;
+    std::vector<std::size_t> waiting;  // places in `pairs`
+    Weak_counters counters;
+  };
+  /// Targets of one source that may be hidden together.
+  struct Group {
+    std::uint32_t source;
+    Targets targets;
+    Weak_counters counters;
+  };
+
+  void ask(Face& face);
+  /// One search for a polygon around the targets; if it hides nothing, for each half of them.
+  void hide(const Group& group, const Targets& targets, Weak_counters& counters);
+  bool is_seen_beside(const Group& group, std::uint32_t target, const Weak_answer& seen, Weak_counters& counters);
+  void finish(Face& face);
+  Weakly_visible put_together();
+  bool is_wanted(const Face& face) const {
+    const auto& wanted = options_->faces;
+    return wanted.empty() || std::binary_search(wanted.begin(), wanted.end(), id_of(face));
+  }
+  Face_id id_of(const Face& face) const { return occluders_->scene().pieces()[face.begin].face; }
+
+  /// What no search is needed for: pairs that look away, and what hides many targets at once.
+  std::optional<Weak_answer> quick_answer(std::uint32_t piece, std::uint32_t source, Weak_counters& counters) const;
+  Weak_answer searched(std::uint32_t piece, std::uint32_t source, const Weak_search_options& search,
+                       Weak_counters& counters) const;
+  std::vector<Group> groups() const;
+  Pair& waiting_pair(std::uint32_t piece, std::uint32_t source);
+  static void settle(Face& face);
+  void count_done() {
+    if (options_->progress) options_->progress(++done_, faces_.size());
+  }
+
+  const Occluders* occluders_;
+  const std::vector<Weak_source>* sources_;
+  const Weak_options* options_;
+  std::vector<Face> faces_;
+  std::vector<std::vector<std::uint32_t>> likely_;  // by source, what may hide each piece
+  std::vector<Weak_counters> of_groups_;
+  std::atomic<std::size_t> done_{0};
+};
+
+Weak_question::Weak_question(const Occluders& occluders, const std::vector<Weak_source>& sources,
+                             const Weak_options& options)
+    : occluders_(&occluders), sources_(&sources), options_(&options), likely_(sources.size()) {
+  const std::vector<Piece>& pieces = occluders.scene().pieces();
+  const std::vector<std::uint32_t> first = first_pieces(pieces);
+  for (std::size_t f = 0; f < first.size(); ++f)
+    faces_.push_back({first[f],
+                      f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size()),
+                      Weak_status::hidden,
+                      {},
+                      {},
+                      {}});
+}
+
+Weakly_visible Weak_question::answered() {
+  // What hides many targets at once is found once, where most of them are asked about.
+  constexpr std::size_t most_are = 8;
+  if (options_->faces.empty() || options_->faces.size() * most_are > faces_.size())
+    parallel_for(sources_->size(), [&](std::size_t s) {
+      likely_[s] = likely_blockers(*occluders_, (*sources_)[s], options_->search.out_of_time);
+    });
+  run_with_threads(options_->threads, [&] {
+    // 1. Each pair by itself.
+    parallel_for(faces_.size(), [&](std::size_t f) { ask(faces_[f]); });
+    // 2. What may be hidden together.
+    std::vector<Group> all = groups();
+    parallel_for(all.size(), [&](std::size_t g) { hide(all[g], all[g].targets, all[g].counters); });
+    for (Group& group : all) of_groups_.push_back(group.counters);
+    // 3. What was not.
+    parallel_for(faces_.size(), [&](std::size_t f) { finish(faces_[f]); });
+  });
+  return put_together();
+}
+
+std::optional<Weak_answer> Weak_question::quick_answer(std::uint32_t piece, std::uint32_t source,
+                                                       Weak_counters& counters) const {
+  const auto& [polygon, plane] = (*sources_)[source];
+  if (has_run_out(options_->search.out_of_time)) return nothing_known();
+  const int towards = occluders_->side_of(piece, plane), back = side(occluders_->plane(piece), polygon);
+  if (towards <= 0 || back == 0 || (back < 0 && !options_->search.two_sided)) {
+    ++counters.targets;
+    ++counters.away;
+    return facing_away();
+  }
+  const std::uint32_t blocker = likely_[source].empty() ? no_blocker : likely_[source][piece];
+  if (blocker == no_blocker) return std::nullopt;
+  const Near_polygon target = occluders_->polygon(piece);
+  if (polygon.size() * target.size() > most_pairs ||
+      !occluders_->blocks_all(blocker, polygon, target, pairs_of(polygon, target)))
+    return std::nullopt;
+  ++counters.targets;
+  ++counters.by_one;
+  ++counters.blocked;
+  return blocked_by(blocker);
+}
+
+Weak_answer Weak_question::searched(std::uint32_t piece, std::uint32_t source, const Weak_search_options& search,
+                                    Weak_counters& counters) const {
+  const auto& [polygon, plane] = (*sources_)[source];
+  return Line_search(*occluders_, polygon, plane, occluders_->polygon(piece), piece, search).run(counters);
+}
+
+void Weak_question::settle(Face& face) {
+  for (std::size_t k = 0; k < face.pairs.size() && face.status != Weak_status::visible; ++k) {
+    const Weak_status status = face.pairs[k].answer.status;
+    if (status == Weak_status::hidden) continue;
+    face.status = status;
+    if (status != Weak_status::visible) continue;
+    face.pairs = {std::move(face.pairs[k])};
+    face.waiting.clear();
+  }
+}
+
+void Weak_question::ask(Face& face) {
+  if (!is_wanted(face)) return count_done();
+  Weak_search_options first_lines = options_->search;
+  first_lines.cells = 0;
+  for (std::uint32_t piece = face.begin; piece < face.end; ++piece) {
+    const bool together = options_->together && has_neighbour_in_plane(*occluders_, piece);
+    for (std::uint32_t s = 0; s < sources_->size(); ++s) {
+      std::optional<Weak_answer> answer = quick_answer(piece, s, face.counters);
+      if (!answer && together) {
+        Weak_counters counters;
+        answer = searched(piece, s, first_lines, counters);
+        if (answer->status == Weak_status::undecided) face.waiting.push_back(face.pairs.size());
+        else face.counters += counters;
+      } else if (!answer) {
+        answer = searched(piece, s, options_->search, face.counters);
+      }
+      face.pairs.push_back({piece, s, std::move(*answer)});
+      if (face.pairs.back().answer.status != Weak_status::visible) continue;
+      settle(face);
+      return count_done();
+    }
+  }
+  if (!face.waiting.empty()) return;
+  settle(face);
+  count_done();
+}
+
+std::vector<Weak_question::Group> Weak_question::groups() const {
+  std::vector<std::vector<std::uint32_t>> targets(sources_->size());
+  for (const Face& face : faces_)
+    for (const std::size_t k : face.waiting) targets[face.pairs[k].source].push_back(face.pairs[k].piece);
+  std::vector<Group> all;
+  for (std::uint32_t s = 0; s < targets.size(); ++s)
+    for (Targets& group : hanging_together(*occluders_, targets[s])) all.push_back({s, std::move(group), {}});
+  return all;
+}
+
+Weak_question::Pair& Weak_question::waiting_pair(std::uint32_t piece, std::uint32_t source) {
+  // Of the last face that begins at the piece or before.
+  Face& face = *std::prev(std::upper_bound(faces_.begin(), faces_.end(), piece,
+                                           [](std::uint32_t p, const Face& later) { return p < later.begin; }));
+  return face.pairs[(piece - face.begin) * sources_->size() + source];
+}
+
+bool Weak_question::is_seen_beside(const Group& group, std::uint32_t target, const Weak_answer& seen,
+                                   Weak_counters& counters) {
+  Weak_answer answer = seen;
+  if (!has_inside(*occluders_, target, seen.sightline[1])) {
+    const auto& [polygon, plane] = (*sources_)[group.source];
+    const auto line = Line_search(*occluders_, polygon, plane, occluders_->polygon(target), target, options_->search)
+                          .beside(seen.sightline[0].near, seen.sightline[1].near, counters);
+    if (!line) return false;
+    answer.sightline.assign(line->begin(), line->end());
+  }
+  ++counters.targets;
+  waiting_pair(target, group.source).answer = std::move(answer);
+  return true;
+}
+
+void Weak_question::hide(const Group& group, const Targets& targets, Weak_counters& counters) {
+  constexpr std::size_t cells_each = 512;  // so that what is in vain costs no more than some searches by themselves
+  if (targets.size() < 2 || has_run_out(options_->search.out_of_time)) return;
+  const auto& [polygon, plane] = (*sources_)[group.source];
+  // 1. All at once.
+  Near_polygon around = polygon_around(*occluders_, targets);
+  Weak_answer found;
+  if (polygon.size() * around.size() <= most_pairs) {
+    Weak_search_options search = options_->search;
+    search.cells = std::min(search.cells, cells_each * targets.size());
+    Weak_counters own;
+    found =
+        Line_search(*occluders_, polygon, plane, around, occluders_->plane(targets[0]), search, targets[0]).run(own);
+    own.targets = own.away = 0;  // it is none of the pairs that were asked about
+    own.polygons = 1;
+    counters += own;
+  }
+  if (found.status == Weak_status::hidden) {
+    const auto shared = std::make_shared<const Shared_proof>(
+        Shared_proof{std::move(around), std::move(found.proof), std::move(found.lines)});
+    for (const std::uint32_t target : targets) {
+      ++counters.targets;
+      ++counters.together;
+      waiting_pair(target, group.source).answer = {Weak_status::hidden, {}, {}, {}, shared};
+    }
+    return;
+  }
+  // 2. Those that are seen where the polygon is, or right beside; then the others in two parts.
+  Targets rest = targets;
+  if (found.status == Weak_status::visible)
+    std::erase_if(rest, [&](std::uint32_t target) { return is_seen_beside(group, target, found, counters); });
+  if (rest.size() < 2) return;
+  const std::array<Targets, 2> parts = halves(*occluders_, rest);
+  std::array<Weak_counters, 2> of_parts;
+  parallel_for(2, [&](std::size_t k) { hide(group, parts[k], of_parts[k]); });
+  for (const Weak_counters& of_part : of_parts) counters += of_part;
+}
+
+void Weak_question::finish(Face& face) {
+  if (face.waiting.empty()) return;
+  for (const std::size_t k : face.waiting) {
+    Pair& pair = face.pairs[k];
+    if (pair.answer.status == Weak_status::undecided) {
+      pair.answer = has_run_out(options_->search.out_of_time)
+                        ? nothing_known()
+                        : searched(pair.piece, pair.source, options_->search, face.counters);
+      if (pair.answer.status == Weak_status::visible) break;
+    }
+  }
+  settle(face);
+  count_done();
+}
+
+Weakly_visible Weak_question::put_together() {
+  Weakly_visible all;
+  std::size_t pairs = 0;
+  for (const Face& face : faces_) pairs += face.pairs.size();
+  all.pairs.reserve(pairs);
+  for (const Weak_counters& counters : of_groups_) all.counters += counters;
+  for (Face& face : faces_) {
+    if (!is_wanted(face)) continue;
+    all.of(face.status).push_back(id_of(face));
+    all.counters += face.counters;
+    for (Pair& pair : face.pairs) {
+      if (face.status != Weak_status::undecided) all.pairs.push_back(std::move(pair));
+      else if (pair.answer.status == Weak_status::undecided) all.open.push_back(std::move(pair));
+    }
+    face = {};  // both at once would be twice as much
+  }
+  return all;
+}
+
+}  // namespace
 
 Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak_source>& sources,
                               const Weak_options& options) {
-  struct Result {
-    Weak_status status = Weak_status::hidden;
-    std::vector<Weakly_visible::Pair> pairs;
-    Weak_counters counters;
-  };
-  const std::vector<Piece>& pieces = occluders.scene().pieces();
-  const std::vector<std::uint32_t> first = first_pieces(pieces);
-  std::vector<Result> results(first.size());
-  const auto& wanted = options.faces;
-  const auto is_wanted = [&](std::size_t f) {
-    return wanted.empty() || std::binary_search(wanted.begin(), wanted.end(), pieces[first[f]].face);
-  };
-  // What hides many targets at once is found once, where most of them are asked about.
-  std::vector<std::vector<std::uint32_t>> likely(sources.size());
-  constexpr std::size_t most_are = 8;
-  if (wanted.empty() || wanted.size() * most_are > first.size())
-    parallel_for(sources.size(), [&](std::size_t s) {
-      likely[s] = likely_blockers(occluders, sources[s], options.search.out_of_time);
-    });
-  const auto answer_of = [&](std::uint32_t piece, std::uint32_t s, Weak_counters& counters) {
-    const auto& [source, plane] = sources[s];
-    if (has_run_out(options.search.out_of_time)) return nothing_known();
-    const int towards = occluders.side_of(piece, plane), back = side(occluders.plane(piece), source);
-    if (towards <= 0 || back == 0 || (back < 0 && !options.search.two_sided)) {
-      ++counters.targets;
-      ++counters.away;
-      return facing_away();
-    }
-    Near_polygon target = occluders.polygon(piece);
-    if (const std::uint32_t blocker = likely[s].empty() ? no_blocker : likely[s][piece];
-        blocker != no_blocker && source.size() * target.size() <= most_pairs &&
-        occluders.blocks_all(blocker, source, target, pairs_of(source, target))) {
-      ++counters.targets;
-      ++counters.by_one;
-      ++counters.blocked;
-      return blocked_by(blocker);
-    }
-    return Line_search(occluders, source, plane, std::move(target), piece, options.search).run(counters);
-  };
-  const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {
-    Result& result = results[f];
-    if (!is_wanted(f)) return;
-    for (std::uint32_t piece = begin; piece < end && result.status != Weak_status::visible; ++piece)
-      for (std::uint32_t s = 0; s < sources.size(); ++s) {
-        Weak_answer answer = answer_of(piece, s, result.counters);
-        if (answer.status == Weak_status::visible) {
-          result.status = Weak_status::visible;
-          result.pairs.clear();
-        } else if (answer.status == Weak_status::undecided) {
-          result.status = Weak_status::undecided;
-        }
-        result.pairs.push_back({piece, s, std::move(answer)});
-        if (result.status == Weak_status::visible) break;
-      }
-  };
-  for_each_face(pieces, first, options.threads, options.progress, decide);
-
-  Weakly_visible all;
-  std::size_t pairs = 0;
-  for (const Result& result : results) pairs += result.pairs.size();
-  all.pairs.reserve(pairs);
-  for (std::size_t f = 0; f < first.size(); ++f) {
-    if (!is_wanted(f)) continue;
-    Result& result = results[f];
-    all.of(result.status).push_back(pieces[first[f]].face);
-    all.counters += result.counters;
-    for (Weakly_visible::Pair& pair : result.pairs) {
-      if (result.status != Weak_status::undecided) all.pairs.push_back(std::move(pair));
-      else if (pair.answer.status == Weak_status::undecided) all.open.push_back(std::move(pair));
-    }
-    result = {};  // both at once would be twice as much
-  }
-  return all;
+  return Weak_question(occluders, sources, options).answered();
 }
 
 }  // namespace sightline

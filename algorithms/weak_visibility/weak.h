@@ -13,8 +13,9 @@ namespace sightline {
 
 struct Weak_options {
   Weak_search_options search;
-  std::vector<Face_id> faces = {};                                  ///< to look at, sorted; none: all
-  int threads = 0;                                                  ///< 0: as many as there are processors
+  std::vector<Face_id> faces = {};  ///< to look at, sorted; none: all
+  bool together = true;  ///< whether pieces that hang together in one plane are also sought to be hidden by one search
+  int threads = 0;       ///< 0: as many as there are processors
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
 

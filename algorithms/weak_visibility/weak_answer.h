@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Weak_counters {
   std::size_t away = 0;     ///< of these, facing away from each other, all of them
   std::size_t by_rays = 0;  ///< of these, seen along one of the first few lines
   std::size_t by_one = 0;  ///< of these, or of their parts where the plane of one passes the other, hidden by one piece
+  std::size_t together = 0;  ///< of these, hidden with others in their plane by one search among all lines to a polygon
+                             ///< that holds them
+  std::size_t polygons = 0;  ///< such polygons that were searched
   std::size_t occluders = 0;  ///< pieces near the shafts, summed over pairs
   std::size_t cells = 0, cuts = 0, shaves = 0, bisections = 0, blocked = 0, empty = 0, corners = 0, learned = 0,
               jumps = 0;
@@ -39,6 +43,8 @@ struct Weak_counters {
     visit("away", &Weak_counters::away);
     visit("by_rays", &Weak_counters::by_rays);
     visit("by_one", &Weak_counters::by_one);
+    visit("together", &Weak_counters::together);
+    visit("polygons", &Weak_counters::polygons);
     visit("occluders", &Weak_counters::occluders);
     visit("cells", &Weak_counters::cells);
     visit("cuts", &Weak_counters::cuts);
@@ -82,12 +88,24 @@ struct Weak_line {
   std::uint32_t piece, corner;
 };
 
+/// A proof that nothing is seen of a convex polygon, nor of the pieces in its plane that it holds.
+struct Shared_proof {
+  Near_polygon target;
+  std::vector<Weak_step> proof;
+  std::vector<Weak_line> lines;
+};
+
 struct Weak_answer {
   Weak_status status = Weak_status::undecided;
   std::vector<Near_point> sightline;  ///< where visible: two points, strictly inside source and target; else none, as
                                       ///< hidden pairs are many
   std::vector<Weak_step> proof;       ///< where hidden; where undecided with steps that are `open`
   std::vector<Weak_line> lines;
+  /// Where hidden together with other pieces of its plane: what hides them all, and `proof` is empty.
+  std::shared_ptr<const Shared_proof> shared = {};
+
+  const std::vector<Weak_step>& all_steps() const { return shared ? shared->proof : proof; }
+  const std::vector<Weak_line>& all_lines() const { return shared ? shared->lines : lines; }
 };
 
 /// An answer that says nothing: all lines are open.

@@ -43,17 +43,17 @@ Json proofs_json(Page& page, const Weakly_visible& found) {
     for (const Weakly_visible::Pair& pair : *list) {
       const Weak_answer& answer = pair.answer;
       if (answer.status == Weak_status::visible) continue;
-      if (kinds.size() + answer.proof.size() > most_steps) {
+      if (kinds.size() + answer.all_steps().size() > most_steps) {
         ++left_out;
         continue;
       }
       pieces.push_back(pair.piece);
       sources.push_back(pair.source);
-      for (const Weak_step& step : answer.proof) {
+      for (const Weak_step& step : answer.all_steps()) {
         const bool is_line = step.kind == Weak_step::Kind::line;
         kinds.push_back(static_cast<std::uint32_t>(step.kind));
-        of.push_back(is_line ? answer.lines[step.index].piece : step.index);
-        corners.push_back(is_line ? answer.lines[step.index].corner : 0);
+        of.push_back(is_line ? answer.all_lines()[step.index].piece : step.index);
+        corners.push_back(is_line ? answer.all_lines()[step.index].corner : 0);
       }
       begin.push_back(static_cast<std::uint32_t>(kinds.size()));
     }

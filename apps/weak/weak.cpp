@@ -163,8 +163,9 @@ void print_search(const Weak_arguments& arguments, const Weak_outcome& outcome) 
     row("rays", fmt::format("{} from each source; nothing is proved", arguments.task.rays));
   if (arguments.method == "lines") {
     row("searches",
-        fmt::format("{}: {} facing away, {} seen by the first lines, {} hidden by one piece; {} cells in the others",
-                    c.targets, c.away, c.by_rays, c.by_one, c.cells));
+        fmt::format("{}: {} facing away, {} seen by the first lines, {} hidden by one piece, {} together with others; "
+                    "{} cells in the others",
+                    c.targets, c.away, c.by_rays, c.by_one, c.together, c.cells));
     if (found.visible.empty() && found.undecided.empty() && c.away > 0 && c.cells == 0 && c.by_one == 0)
       row("turned round?",
           "all faces are behind the source or have their backs to it; a source looks to the side from which its "

@@ -29,6 +29,7 @@
 #include <sightline/harness/laws/weak_partition.h>
 #include <sightline/harness/laws/weak_shares.h>
 #include <sightline/harness/laws/weak_surfaces.h>
+#include <sightline/harness/laws/weak_together.h>
 #include <sightline/harness/laws/weak_volume.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -169,6 +170,7 @@ Subject weak() {
   subject.checks.push_back(empty_scenes_check(subject.verified));
   subject.checks.push_back(surfaces_check());
   subject.checks.push_back(shares_check());
+  subject.checks.push_back(together_check());
   return subject;
 }
 

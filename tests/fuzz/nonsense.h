@@ -176,6 +176,26 @@ inline void add_of_question(Nonsense& nonsense, Weak_certificate& claim) {
     nonsense.place("entry.fragment", entry.fragment, fragments);
     nonsense.place("entry.source", entry.source, sources);
     for (std::size_t& other : entry.also) nonsense.place("other", other, fragments);
+    nonsense.points("entry.target", entry.target);
+    if (entry.fragment < fragments) {
+      const auto in_its_place = [&claim, &nonsense, &entry](const char* what, auto&& change) {
+        nonsense.way(what, [&claim, &entry, change](Bytes&) {
+          if (entry.fragment < claim.fragments.size()) change(entry.target = claim.fragments[entry.fragment].vertices);
+        });
+      };
+      in_its_place("a target that looks to the other side",
+                   [](Points& target) { std::reverse(target.begin(), target.end()); });
+      in_its_place("a target in another plane", [](Points& target) {
+        const std::array<Rational, 4> plane = plane_through_corners(target);
+        for (Exact_point& p : target)
+          for (std::size_t k = 0; k < 3; ++k) p[k] += plane[k];
+      });
+      in_its_place("a target that is smaller", [](Points& target) {
+        const Exact_point first = target[0], second = target[2];
+        for (Exact_point& p : target)
+          for (std::size_t k = 0; k < 3; ++k) p[k] = p[k] / 2 + (first[k] + second[k]) / 4;
+      });
+    }
     nonsense.ended("entry.proof", entry.proof);
     if (sources > 0 && !claim.sources[0].empty())  // all of the source is behind the cut
       nonsense.way("something is told of nothing", [&claim, &entry](Bytes& bytes) {

@@ -194,7 +194,7 @@ inline Weak_certificate::Form bisector(const Points& polygon) {
 inline void weaken(Weak_certificate& claim, Weak_certificate::Hidden& entry, Mutator& random) {
   using Node = Weak_certificate::Node;
   constexpr std::size_t most_nodes = 500;
-  if (entry.proof.empty() || entry.proof.size() > most_nodes || !entry.also.empty()) return;
+  if (entry.proof.empty() || entry.proof.size() > most_nodes || (!entry.also.empty() && entry.target.empty())) return;
   const auto has = [&](Node::Kind kind) {  // a part may have no inside on one side of such a cut
     return std::any_of(entry.proof.begin(), entry.proof.end(), [&](const Node& node) { return node.kind == kind; });
   };
@@ -213,11 +213,21 @@ inline void weaken(Weak_certificate& claim, Weak_certificate::Hidden& entry, Mut
     default:
       if (has(Node::Kind::cut_target)) return;
       root.kind = Node::Kind::cut_target;
-      root.plane = bisector(claim.fragments[entry.fragment].vertices);
+      root.plane = bisector(entry.target.empty() ? claim.fragments[entry.fragment].vertices : entry.target);
   }
   std::vector<Node> proof{root};
   for (int times = 0; times < 2; ++times) proof.insert(proof.end(), entry.proof.begin(), entry.proof.end());
   entry.proof = std::move(proof);
+}
+
+/// A proof of fragments by themselves as one of a polygon, or of a polygon that begins elsewhere and has a corner more.
+inline void tell_of_a_target(Weak_certificate& claim, Mutator& random) {
+  if (claim.hidden.empty()) return;
+  Weak_certificate::Hidden& entry = claim.hidden[random.below(claim.hidden.size())];
+  if (entry.target.empty() && entry.also.empty()) entry.target = claim.fragments[entry.fragment].vertices;
+  if (entry.target.empty()) return;
+  begin_elsewhere(entry.target, random);
+  add_straight_corner(entry.target, random.below(entry.target.size()));
 }
 
 /// Fragments that one leaf hides, one by one; or two that the same leaf hides, together.
@@ -227,15 +237,16 @@ inline void tell_apart(Weak_certificate& claim, Mutator& random) {
   if (!claim.hidden[k].also.empty()) {
     const std::size_t other = claim.hidden[k].also.back();
     claim.hidden[k].also.pop_back();
-    claim.hidden.push_back(Weak_certificate::Hidden{other, claim.hidden[k].source, claim.hidden[k].proof});
+    const Weak_certificate::Hidden& entry = claim.hidden[k];
+    claim.hidden.push_back(Weak_certificate::Hidden{other, entry.source, entry.proof, {}, entry.target});
     return;
   }
   const Weak_certificate::Hidden mine = claim.hidden[k];
-  if (mine.proof.size() != 1) return;
+  if (mine.proof.size() != 1 || !mine.target.empty()) return;
   for (std::size_t i = 0; i < claim.hidden.size(); ++i) {
     auto& entry = claim.hidden[i];
-    if (i == k || entry.source != mine.source || entry.proof.size() != 1 || !mine.proof[0].terms.empty() ||
-        !entry.proof[0].terms.empty() || entry.proof[0].kind != mine.proof[0].kind ||
+    if (i == k || entry.source != mine.source || entry.proof.size() != 1 || !entry.target.empty() ||
+        !mine.proof[0].terms.empty() || !entry.proof[0].terms.empty() || entry.proof[0].kind != mine.proof[0].kind ||
         entry.proof[0].index != mine.proof[0].index)
       continue;
     entry.also.push_back(mine.fragment);
@@ -301,8 +312,9 @@ inline void retell(Weak_certificate& claim, Mutator& random) {
         return is_of_it(entry) || std::find(entry.also.begin(), entry.also.end(), k) != entry.also.end();
       };
       const auto cuts = [&](const Weak_certificate::Hidden& entry) {
-        return hides_it(entry) && std::any_of(entry.proof.begin(), entry.proof.end(),
-                                              [](const Node& node) { return node.kind == Node::Kind::cut_target; });
+        return hides_it(entry) && entry.target.empty() &&
+               std::any_of(entry.proof.begin(), entry.proof.end(),
+                           [](const Node& node) { return node.kind == Node::Kind::cut_target; });
       };
       const auto names = [&](const Weak_certificate::Hidden& entry) {
         return std::any_of(entry.proof.begin(), entry.proof.end(),
@@ -321,14 +333,17 @@ inline void retell(Weak_certificate& claim, Mutator& random) {
       for (std::size_t i = 0, entries = claim.hidden.size(); i < entries; ++i)
         if (hides_it(claim.hidden[i])) {
           const Weak_certificate::Hidden& entry = claim.hidden[i];
-          const bool together = entry.proof.size() == 1 && random.below(2) == 0;
+          const bool together = (entry.proof.size() == 1 || !entry.target.empty()) && random.below(2) == 0;
           if (together) claim.hidden[i].also.push_back(claim.fragments.size());
-          else claim.hidden.push_back(Weak_certificate::Hidden{claim.fragments.size(), entry.source, entry.proof});
+          else
+            claim.hidden.push_back(
+                Weak_certificate::Hidden{claim.fragments.size(), entry.source, entry.proof, {}, entry.target});
         }
       claim.fragments.push_back(std::move(rest));
     } break;
     case 4:
       tell_apart(claim, random);
+      tell_of_a_target(claim, random);
       for (auto& entry : claim.hidden)
         for (Node& node : entry.proof) {
           const Rational factor(static_cast<long>(1 + random.below(9)));

@@ -137,95 +137,256 @@ bool exchange_terms(Weak_certificate& claim, Bytes& bytes, Member member) {
 inline const std::vector<Lie<Weak_certificate>>& lies_in(const Weak_certificate&) {
   using Claim = Weak_certificate;
   using Node_kind = Claim::Node::Kind;
-  static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
-      {{"of the true source",
-        [](Claim& claim, const Posed_scene& truth, Bytes&) {
-          std::vector<Points> sources{truth.source};
-          return std::exchange(claim.sources, sources) != sources;
-        }},
-       {"the source nudged",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) { return nudge_any(claim.sources[0], bytes); }},
-       {"the source turned",
-        [](Claim& claim, const Posed_scene&, Bytes&) {
-          std::reverse(claim.sources[0].begin(), claim.sources[0].end());
-          return true;
-        }},
-       {"two-sided",
-        [](Claim& claim, const Posed_scene&, Bytes&) {
-          claim.two_sided = !claim.two_sided;
-          return true;
-        }},
-       {"proofs exchanged", [](Claim& claim, const Posed_scene&,
-                               Bytes& bytes) { return exchange(claim.hidden, bytes, &Claim::Hidden::proof); }},
-       {"fragments of sightlines exchanged",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
-          return exchange(claim.visible, bytes, &Claim::Sightline::fragment);
-        }},
-       {"lines exchanged", [](Claim& claim, const Posed_scene&,
-                              Bytes& bytes) { return exchange(claim.lines, bytes, &Claim::Edge::corner); }},
-       {"hidden by another's proof",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
-          if (claim.visible.empty() || claim.hidden.empty()) return false;
-          const std::size_t k = any_of_first(claim.visible, bytes);
-          Claim::Hidden entry = claim.hidden[any_of_first(claim.hidden, bytes)];
-          entry.fragment = claim.visible[k].fragment;
-          entry.also.clear();
-          claim.hidden.push_back(std::move(entry));
-          claim.visible.erase(claim.visible.begin() + static_cast<std::ptrdiff_t>(k));
-          return true;
-        }},
-       {"hidden with others",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
-          if (claim.visible.empty() || claim.hidden.empty()) return false;
-          const std::size_t k = any_of_first(claim.visible, bytes);
-          Claim::Hidden& entry = claim.hidden[any_of_first(claim.hidden, bytes)];
-          entry.also.push_back(claim.visible[k].fragment);
-          claim.visible.erase(claim.visible.begin() + static_cast<std::ptrdiff_t>(k));
-          return true;
-        }},
-       {"of others no more",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
-          if (claim.hidden.empty()) return false;
-          std::vector<std::size_t>& also = claim.hidden[any_of_first(claim.hidden, bytes)].also;
-          if (also.empty()) return false;
-          also.erase(also.begin() + static_cast<std::ptrdiff_t>(any_of_first(also, bytes)));
-          return true;
-        }},
-       {"parts of a proof exchanged", exchange_parts_of_a_proof},
-       {"lines of terms exchanged", [](Claim& claim, const Posed_scene&,
-                                       Bytes& bytes) { return exchange_terms(claim, bytes, &Claim::Term::line); }},
-       {"factors exchanged", [](Claim& claim, const Posed_scene&,
-                                Bytes& bytes) { return exchange_terms(claim, bytes, &Claim::Term::factor); }},
-       {"a term left out",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
-          const auto node = any_node(claim, bytes, [](const auto& one) { return one.terms.size() > 1; });
-          return node && remove_any(node->terms, bytes);
-        }},
-       {"a cut nudged",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
-          const auto node = any_node(claim, bytes, is_a_cut);
-          return node && nudge(node->plane, bytes);
-        }},
-       {"another leaf",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
-          const auto node = any_node(claim, bytes, [](const auto& one) { return one.kind >= Node_kind::blocked; });
-          if (!node) return false;
-          const Claim::Node old = *node;
-          node->kind = bytes.below(2) == 0 ? Node_kind::away : Node_kind::blocked;
-          node->index = any_of_first(claim.fragments, bytes);
-          return old.kind != node->kind || (old.kind == Node_kind::blocked && old.index != node->index);
-        }},
-       {"hidden by one fragment", hide_at_random<Leaves::blocked>},
-       {"hidden by emptiness", hide_at_random<Leaves::empty>},
-       {"hidden by what is not decided", hide_at_random<Leaves::baseless>},
-       {"hidden by any leaves", hide_at_random<Leaves::any>},
-       {"an end on the boundary", move_an_end<To::boundary>},
-       {"an end elsewhere", move_an_end<To::inside>},
-       {"an end in another fragment", move_an_end<To::meeting>},
-       {"a sightline left out",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) { return remove_any(claim.visible, bytes); }},
-       {"a proof left out",
-        [](Claim& claim, const Posed_scene&, Bytes& bytes) { return remove_any(claim.hidden, bytes); }}});
+  static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>({{"of the true source",
+                                                                                [](Claim& claim,
+                                                                                   const Posed_scene& truth, Bytes&) {
+                                                                                  std::vector<Points> sources{
+                                                                                      truth.source};
+                                                                                  return std::exchange(claim.sources,
+                                                                                                       sources) !=
+                                                                                         sources;
+                                                                                }},
+                                                                               {"the source nudged",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  return nudge_any(claim.sources[0],
+                                                                                                   bytes);
+                                                                                }},
+                                                                               {"the source turned",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes&) {
+                                                                                  std::reverse(claim.sources[0].begin(),
+                                                                                               claim.sources[0].end());
+                                                                                  return true;
+                                                                                }},
+                                                                               {"two-sided",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes&) {
+                                                                                  claim.two_sided = !claim.two_sided;
+                                                                                  return true;
+                                                                                }},
+                                                                               {"proofs exchanged",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  return exchange(
+                                                                                      claim.hidden, bytes,
+                                                                                      &Claim::Hidden::proof);
+                                                                                }},
+                                                                               {"fragments of sightlines exchanged",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  return exchange(
+                                                                                      claim.visible, bytes,
+                                                                                      &Claim::Sightline::fragment);
+                                                                                }},
+                                                                               {"lines exchanged",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  return exchange(claim.lines, bytes,
+                                                                                                  &Claim::Edge::corner);
+                                                                                }},
+                                                                               {"hidden by another's proof",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  if (claim.visible.empty() ||
+                                                                                      claim.hidden.empty())
+                                                                                    return false;
+                                                                                  const std::size_t k = any_of_first(
+                                                                                      claim.visible, bytes);
+                                                                                  Claim::Hidden entry =
+                                                                                      claim.hidden[any_of_first(
+                                                                                          claim.hidden, bytes)];
+                                                                                  entry.fragment =
+                                                                                      claim.visible[k].fragment;
+                                                                                  entry.also.clear();
+                                                                                  claim.hidden.push_back(
+                                                                                      std::move(entry));
+                                                                                  claim.visible.erase(
+                                                                                      claim.visible.begin() +
+                                                                                      static_cast<std::ptrdiff_t>(k));
+                                                                                  return true;
+                                                                                }},
+                                                                               {"hidden with others",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  if (claim.visible.empty() ||
+                                                                                      claim.hidden.empty())
+                                                                                    return false;
+                                                                                  const std::size_t k = any_of_first(
+                                                                                      claim.visible, bytes);
+                                                                                  Claim::Hidden& entry =
+                                                                                      claim.hidden[any_of_first(
+                                                                                          claim.hidden, bytes)];
+                                                                                  entry.also.push_back(
+                                                                                      claim.visible[k].fragment);
+                                                                                  claim.visible.erase(
+                                                                                      claim.visible.begin() +
+                                                                                      static_cast<std::ptrdiff_t>(k));
+                                                                                  return true;
+                                                                                }},
+                                                                               {"of others no more",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  if (claim.hidden.empty())
+                                                                                    return false;
+                                                                                  std::vector<std::size_t>& also =
+                                                                                      claim
+                                                                                          .hidden[any_of_first(
+                                                                                              claim.hidden, bytes)]
+                                                                                          .also;
+                                                                                  if (also.empty()) return false;
+                                                                                  also.erase(
+                                                                                      also.begin() +
+                                                                                      static_cast<std::ptrdiff_t>(
+                                                                                          any_of_first(also, bytes)));
+                                                                                  return true;
+                                                                                }},
+                                                                               {"hidden by a target nudged",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  if (claim.hidden.empty())
+                                                                                    return false;
+                                                                                  Claim::Hidden& entry =
+                                                                                      claim.hidden[any_of_first(
+                                                                                          claim.hidden, bytes)];
+                                                                                  if (entry.target.empty())
+                                                                                    entry.target =
+                                                                                        claim.fragments[entry.fragment]
+                                                                                            .vertices;
+                                                                                  return nudge_any(entry.target, bytes);
+                                                                                }},
+                                                                               {"hidden by another's target",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  if (claim.hidden.empty())
+                                                                                    return false;
+                                                                                  Claim::Hidden& entry =
+                                                                                      claim.hidden[any_of_first(
+                                                                                          claim.hidden, bytes)];
+                                                                                  const Points other =
+                                                                                      claim
+                                                                                          .fragments[any_of_first(
+                                                                                              claim.fragments, bytes)]
+                                                                                          .vertices;
+                                                                                  return std::exchange(entry.target,
+                                                                                                       other) != other;
+                                                                                }},
+                                                                               {"targets left out",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes&) {
+                                                                                  bool any = false;
+                                                                                  for (Claim::Hidden& entry :
+                                                                                       claim.hidden)
+                                                                                    any =
+                                                                                        !std::exchange(entry.target, {})
+                                                                                             .empty() ||
+                                                                                        any;
+                                                                                  return any;
+                                                                                }},
+                                                                               {"seen, but hidden with a target",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  if (claim.visible.empty() ||
+                                                                                      claim.hidden.empty())
+                                                                                    return false;
+                                                                                  const std::size_t k = any_of_first(
+                                                                                      claim.visible, bytes);
+                                                                                  Claim::Hidden& entry =
+                                                                                      claim.hidden[any_of_first(
+                                                                                          claim.hidden, bytes)];
+                                                                                  if (entry.target.empty())
+                                                                                    entry.target =
+                                                                                        claim.fragments[entry.fragment]
+                                                                                            .vertices;
+                                                                                  entry.also.push_back(
+                                                                                      claim.visible[k].fragment);
+                                                                                  claim.visible.erase(
+                                                                                      claim.visible.begin() +
+                                                                                      static_cast<std::ptrdiff_t>(k));
+                                                                                  return true;
+                                                                                }},
+                                                                               {"parts of a proof exchanged",
+                                                                                exchange_parts_of_a_proof},
+                                                                               {"lines of terms exchanged",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  return exchange_terms(
+                                                                                      claim, bytes, &Claim::Term::line);
+                                                                                }},
+                                                                               {"factors exchanged",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  return exchange_terms(
+                                                                                      claim, bytes,
+                                                                                      &Claim::Term::factor);
+                                                                                }},
+                                                                               {"a term left out",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  const auto node = any_node(
+                                                                                      claim, bytes,
+                                                                                      [](const auto& one) {
+                                                                                        return one.terms.size() > 1;
+                                                                                      });
+                                                                                  return node &&
+                                                                                         remove_any(node->terms, bytes);
+                                                                                }},
+                                                                               {"a cut nudged",
+                                                                                [](
+                                                                                    Claim& claim,
+                                                                                    const Posed_scene&, Bytes& bytes) {
+                                                                                  const auto node =
+                                                                                      any_node(claim, bytes, is_a_cut);
+                                                                                  return node &&
+                                                                                         nudge(node->plane, bytes);
+                                                                                }},
+                                                                               {"another leaf",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  const auto node = any_node(
+                                                                                      claim, bytes,
+                                                                                      [](const auto& one) {
+                                                                                        return one.kind >=
+                                                                                               Node_kind::blocked;
+                                                                                      });
+                                                                                  if (!node) return false;
+                                                                                  const Claim::Node old = *node;
+                                                                                  node->kind = bytes.below(2) == 0
+                                                                                                   ? Node_kind::away
+                                                                                                   : Node_kind::blocked;
+                                                                                  node->index = any_of_first(
+                                                                                      claim.fragments, bytes);
+                                                                                  return old.kind != node->kind ||
+                                                                                         (old.kind ==
+                                                                                              Node_kind::blocked &&
+                                                                                          old.index != node->index);
+                                                                                }},
+                                                                               {"hidden by one fragment",
+                                                                                hide_at_random<Leaves::blocked>},
+                                                                               {"hidden by emptiness",
+                                                                                hide_at_random<Leaves::empty>},
+                                                                               {"hidden by what is not decided",
+                                                                                hide_at_random<Leaves::baseless>},
+                                                                               {"hidden by any leaves",
+                                                                                hide_at_random<Leaves::any>},
+                                                                               {"an end on the boundary",
+                                                                                move_an_end<To::boundary>},
+                                                                               {"an end elsewhere",
+                                                                                move_an_end<To::inside>},
+                                                                               {"an end in another fragment",
+                                                                                move_an_end<To::meeting>},
+                                                                               {"a sightline left out",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  return remove_any(claim.visible,
+                                                                                                    bytes);
+                                                                                }},
+                                                                               {"a proof left out",
+                                                                                [](Claim& claim, const Posed_scene&,
+                                                                                   Bytes& bytes) {
+                                                                                  return remove_any(claim.hidden,
+                                                                                                    bytes);
+                                                                                }}});
   return all;
 }
 

@@ -324,7 +324,7 @@ TEST_F(Outputs, one_of_them_may_be_standard_output_and_then_it_is_all_there_is) 
             "sightline query 1");
   EXPECT_EQ(printed({"see", scene, "--svg", path("a.svg").string(), "--certificate", "-"}).json()["format"],
             "sightline see 2");
-  EXPECT_EQ(lit("--certificate").json()["format"], "sightline weak 3");
+  EXPECT_EQ(lit("--certificate").json()["format"], "sightline weak 4");
   EXPECT_FALSE(fs::exists("-"));
   expect_refused({"order", scene, "--json", "-", "--certificate", "-"}, "writes to already");
 }

@@ -350,7 +350,7 @@ TEST(Certificate_json, of_what_polygons_can_see_is_read_back_and_judged_the_same
 
 TEST(Certificate_json, of_what_polygons_can_see_has_the_documented_keys) {
   const Json json = json_of(weak_test::skew_slit_both().certificate);
-  EXPECT_EQ(json["format"], "sightline weak 3");
+  EXPECT_EQ(json["format"], "sightline weak 4");
   EXPECT_EQ(json["sources"][0][1], (Json{"-1/100", "0", "0"}));
   EXPECT_EQ(json["lines"], Json::parse("[[1, 2], [2, 0]]"));
   EXPECT_EQ(json["hidden"][0]["fragment"], 0);
@@ -397,7 +397,7 @@ TEST(Certificate_json, faults_in_what_polygons_can_see_are_named_with_their_plac
   EXPECT_EQ(fault("/more", "1"), "nothing");
   for (const char* optional : {"/undecided", "/pieces", "/set_aside"}) EXPECT_EQ(fault(optional, ""), "nothing");
   const std::vector<std::array<std::string, 3>> cases = {
-      {"/format", "\"sightline weak 4\"", "format: expected \"sightline order 2\", or graph, see, weak or along"},
+      {"/format", "\"sightline weak 5\"", "format: expected \"sightline order 2\", or graph, see, weak or along"},
       {"/sources", "", "top level: no \"sources\""},
       {"/sources", "7", "sources: expected an array"},
       {"/sources/1", "7", "sources[1]: expected an array"},

@@ -357,14 +357,76 @@ TEST(Weak_faces, are_hidden_together_by_one_leaf) {
   wrong = more;
   wrong.certificate.hidden[0].also = {behind, 4};
   expect_rejected(wrong, "hidden 0 names fragment 4, which there is not");
-  // A tree is of one fragment.
+  // A tree is of one fragment, or of a polygon.
   wrong = more;
   wrong.certificate.lines.push_back({1, 0});
   wrong.certificate.hidden[0].proof = {side_of(0), blocked(1), blocked(1)};
-  expect_rejected(wrong, "hidden 0 is of several fragments, but its proof is not one leaf");
+  expect_rejected(wrong, "hidden 0 is of several fragments, but its proof is neither one leaf nor of a polygon");
   wrong.certificate.hidden[0].also.clear();
   wrong.certificate.undecided.push_back(static_cast<Face_id>(behind));
   expect_accepted(wrong, "0 faces visible, 2 hidden, 2 undecided");
+}
+
+/// Two triangles behind a fragment, hidden by one tree of the square that they are.
+Weak_scene two_in_a_target() {
+  Weak_scene scene = one_blocker();
+  const std::size_t one = scene.face({at(0, 0, 4), at(0, 1, 4), at(1, 1, 4)}),
+                    other = scene.face({at(0, 0, 4), at(1, 1, 4), at(1, 0, 4)});
+  scene.certificate.lines.push_back({1, 0});
+  scene.certificate.hidden.push_back({one, 0, {side_of(0), blocked(1), blocked(1)}, {other}});
+  scene.certificate.hidden.back().target = {at(0, 0, 4), at(0, 1, 4), at(1, 1, 4), at(1, 0, 4)};
+  return scene;
+}
+
+TEST(Weak_faces, are_hidden_together_by_a_tree_of_a_polygon_that_holds_them) {
+  const Weak_scene right = two_in_a_target();
+  expect_accepted(right, "0 faces visible, 4 hidden");
+  const auto with = [&](auto&& change) {
+    Weak_scene scene = right;
+    change(scene.certificate.hidden.back());
+    return scene;
+  };
+  using Hidden = Weak_certificate::Hidden;
+  expect_accepted(with([](Hidden& entry) { std::swap(entry.fragment, entry.also[0]); }), "4 hidden");
+  // Larger, with straight corners, as long as its tree holds.
+  expect_accepted(with([](Hidden& entry) {
+                    entry.target = {at(-1, 0, 4), at(0, 1, 4), at(1, 2, 4), at(3, 2, 4), at(1, 0, 4), at(0, 0, 4)};
+                  }),
+                  "4 hidden");
+  expect_rejected(with([](Hidden& entry) {
+                    entry.target = {at(0, -99, 4), at(0, 1, 4), at(1, 1, 4), at(1, -99, 4)};
+                  }),
+                  "hidden 2 (face 2), node 1 is not blocked by fragment 1");
+  // What a target must be.
+  expect_rejected(with([](Hidden& entry) { entry.target.clear(); }),
+                  "hidden 2 is of several fragments, but its proof is neither one leaf nor of a polygon");
+  expect_rejected(with([](Hidden& entry) { std::reverse(entry.target.begin(), entry.target.end()); }),
+                  "hidden 2 (face 2), its target ");
+  expect_rejected(with([](Hidden& entry) { entry.target[2][2] = 5; }), "hidden 2 (face 2), its target ");
+  expect_rejected(with([](Hidden& entry) { entry.target.resize(2); }), "hidden 2 (face 2), its target ");
+  expect_rejected(with([](Hidden& entry) { std::swap(entry.target[0], entry.target[1]); }),
+                  "hidden 2 (face 2), its target ");
+  expect_rejected(with([](Hidden& entry) { mpq_set_ui(entry.target[0][2].get_mpq_t(), 8, 2); }),
+                  "hidden 2 (face 2) has a target with a vertex that is not in canonical numbers");
+  expect_rejected(with([](Hidden& entry) {
+                    entry.target[1] = {Rational(1, 99), 1, 4};
+                  }),
+                  "hidden 2 (face 2) has a corner outside of its target");
+  expect_rejected(with([](Hidden& entry) {
+                    entry.target[3] = {Rational(98, 99), 0, 4};
+                  }),
+                  "hidden 2 (face 3) has a corner outside of its target");
+  // What is in it.
+  Weak_scene elsewhere = right;
+  elsewhere.certificate.hidden.back().also.push_back(0);
+  elsewhere.certificate.hidden.erase(elsewhere.certificate.hidden.begin());
+  expect_rejected(elsewhere, "hidden 1 (face 0) is not in the plane of its target, or looks to the other side");
+  Weak_scene turned = right;
+  const std::size_t back = turned.face({at(0, 0, 4), at(1, 0, 4), at(0, 1, 4)});
+  turned.certificate.hidden.back().also.push_back(back);
+  expect_rejected(turned, "hidden 2 (face 4) is not in the plane of its target, or looks to the other side");
+  turned.certificate.hidden.back().also.back() = 9;
+  expect_rejected(turned, "hidden 2 names fragment 9, which there is not");
 }
 
 TEST(Weak_faces, are_hidden_with_all_fragments_from_all_sources) {

@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(All, Families, testing::Range(std::size_t{0}, weak_scen
                          [](const auto& of) { return weak_scenes::families()[of.param].name; });
 
 // This is kept of each source and piece that it does not see, and a proof.
-static_assert(sizeof(Weakly_visible::Pair) <= 12 * sizeof(void*));
+static_assert(sizeof(Weakly_visible::Pair) <= 13 * sizeof(void*));
 
 TEST(Weak_visibility, counts_a_pair_as_facing_away_once_though_a_plane_cuts_it) {
   // A square that looks up, and one across its plane that looks away from it, or to it.

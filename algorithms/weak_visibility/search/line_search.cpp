@@ -108,14 +108,26 @@ bool Line_search::is_between(std::uint32_t piece, const Triple& p, const Triple&
   return std::fabs(likely_value(h, p)) > close && std::fabs(likely_value(h, q)) > close;
 }
 
+bool Line_search::is_seen_along(const Line_domain& domain, const Line_weights& line) {
+  const Triple p = weighted_mean(domain.source, line.source), q = weighted_mean(domain.target, line.target);
+  const auto is_met = [&](std::uint32_t piece) { return is_between(piece, p, q); };
+  if (occluders_->on_segment({p, q}, is_met) || confirm(domain, line)) return false;
+  ++counters_->by_rays;
+  return true;
+}
+
+std::optional<std::array<Near_point, 2>> Line_search::beside(const Triple& p, const Triple& q,
+                                                             Weak_counters& counters) {
+  counters_ = &counters;
+  const Line_domain& domain = *domains_[0];
+  if (is_across(*source_plane_, domain.target) || is_across(*target_plane_, domain.source)) return std::nullopt;
+  for (const Line_weights& line : lines_beside(domain.source, domain.target, p, q))
+    if (is_seen_along(domain, line)) return sightline_;
+  return std::nullopt;
+}
+
 bool Line_search::try_lines(const Line_domain& domain) {
-  const auto is_seen = [&](const Line_weights& line) {
-    const Triple p = weighted_mean(domain.source, line.source), q = weighted_mean(domain.target, line.target);
-    const auto is_met = [&](std::uint32_t piece) { return is_between(piece, p, q); };
-    if (occluders_->on_segment({p, q}, is_met) || confirm(domain, line)) return false;
-    ++counters_->by_rays;
-    return true;
-  };
+  const auto is_seen = [&](const Line_weights& line) { return is_seen_along(domain, line); };
   if (is_seen(Line_weights::middle(domain))) return true;
   const std::vector<Line_weights> lines = near_lines(domain.source, *source_plane_, domain.target, *target_plane_);
   return std::any_of(lines.begin(), lines.end(), is_seen);

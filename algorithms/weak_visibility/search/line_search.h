@@ -44,6 +44,9 @@ class Line_search {
   Line_search(const Line_search&) = delete;
 
   Weak_answer run(Weak_counters& counters);
+  /// A sightline beside another line, if one of a few is free. It asks no more than that, and nothing where the plane
+  /// of source or target passes the other one. Pre: both are in front of the other's plane, or across it.
+  std::optional<std::array<Near_point, 2>> beside(const Triple& p, const Triple& q, Weak_counters& counters);
 
  private:
   using Used = std::bitset<256>;  // places of the path; beyond that nothing is left out
@@ -79,6 +82,8 @@ class Line_search {
   /// Whether both points are off a piece's plane, in doubles: else the piece may only touch their segment's end.
   bool is_between(std::uint32_t piece, const Triple& p, const Triple& q) const;
 
+  /// Whether a line that needs no candidates is free.
+  bool is_seen_along(const Line_domain& domain, const Line_weights& line);
   /// Whether one of a few lines that need no candidates is free: that of middles, and some where the polygons are near.
   bool try_lines(const Line_domain& domain);
 

@@ -99,6 +99,13 @@ std::array<std::vector<double>, 2> ends_beside(const Near_polygon& own, const Ne
   return {std::move(end), std::move(other_end)};
 }
 
+bool is_finite(const Line_weights& line) {
+  const auto all_finite = [](const std::vector<double>& weights) {
+    return std::all_of(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });
+  };
+  return all_finite(line.source) && all_finite(line.target);
+}
+
 }  // namespace
 
 std::vector<Line_weights> near_lines(const Near_polygon& source, const Near_plane& source_plane,
@@ -106,16 +113,26 @@ std::vector<Line_weights> near_lines(const Near_polygon& source, const Near_plan
   constexpr std::array off{0.25, 0.03125};
   std::vector<Line_weights> lines;
   const auto add = [&](Line_weights line) {
-    const auto is_finite = [](double w) { return std::isfinite(w); };
-    if (std::all_of(line.source.begin(), line.source.end(), is_finite) &&
-        std::all_of(line.target.begin(), line.target.end(), is_finite))
-      lines.push_back(std::move(line));
+    if (is_finite(line)) lines.push_back(std::move(line));
   };
   for (const double share : off) {
     auto [from, to_near] = ends_beside(source, target, target_plane, share);
     add({std::move(from), std::move(to_near), {}, {}});
     auto [to, from_near] = ends_beside(target, source, source_plane, share);
     add({std::move(from_near), std::move(to), {}, {}});
+  }
+  return lines;
+}
+
+std::vector<Line_weights> lines_beside(const Near_polygon& source, const Near_polygon& target, const Triple& p,
+                                       const Triple& q) {
+  constexpr std::array off{0x1p-8, 0x1p-5, 0x1p-2};
+  std::vector<Line_weights> lines;
+  for (const double share : off) {
+    Line_weights line{nearest(source, p), nearest(target, q), {}, {}};
+    spread(line.source, 0x1p-30);
+    spread(line.target, share);
+    if (is_finite(line)) lines.push_back(std::move(line));
   }
   return lines;
 }

@@ -14,4 +14,9 @@ namespace sightline {
 std::vector<Line_weights> near_lines(const Near_polygon& source, const Near_plane& source_plane,
                                      const Near_polygon& target, const Near_plane& target_plane);
 
+/// Lines beside another one: from the point of the source that is nearest to p to points near the target's nearest to
+/// q, ever farther from its border. In doubles, for proposals.
+std::vector<Line_weights> lines_beside(const Near_polygon& source, const Near_polygon& target, const Triple& p,
+                                       const Triple& q);
+
 }  // namespace sightline
