@@ -35,17 +35,24 @@ class Weak_question {
     std::vector<std::size_t> waiting;  // places in `pairs`
     Weak_counters counters;
   };
-  /// Targets of one source that may be hidden together.
+  /// Targets of one source that may be hidden together, and what was found of them so far.
   struct Group {
     std::uint32_t source;
     Targets targets;
-    Weak_counters counters;
+    Weak_counters counters = {};
+    std::size_t searched = 0;                  // by themselves, or seen where a polygon was
+    double spent = 0, saved = 0, in_vain = 0;  // cells: of these, by polygons that are hidden, of polygons that are not
+    std::vector<Weak_answer> seen = {};        // sightlines
   };
 
   void ask(Face& face);
-  /// One search for a polygon around the targets; if it hides nothing, for each half of them.
-  void hide(const Group& group, const Targets& targets, Weak_counters& counters);
-  bool is_seen_beside(const Group& group, std::uint32_t target, const Weak_answer& seen, Weak_counters& counters);
+  /// Some targets of a group: all at once, then what is left in halves.
+  /// `tried`: how many of the group's sightlines others beside them were looked for.
+  void decide(Group& group, Targets targets, std::size_t tried);
+  /// What one search for a polygon around two or more targets, and lines beside what it sees, do not decide.
+  Targets left_of(Group& group, Targets targets);
+  void decide_alone(Group& group, std::uint32_t target);
+  bool is_seen_beside(Group& group, std::uint32_t target, std::size_t tried);
   void finish(Face& face);
   Weakly_visible put_together();
   bool is_wanted(const Face& face) const {
@@ -59,6 +66,7 @@ class Weak_question {
   Weak_answer searched(std::uint32_t piece, std::uint32_t source, const Weak_search_options& search,
                        Weak_counters& counters) const;
   std::vector<Group> groups() const;
+  Face& face_of(std::uint32_t piece);
   Pair& waiting_pair(std::uint32_t piece, std::uint32_t source);
   static void settle(Face& face);
   void count_done() {
@@ -100,7 +108,7 @@ Weakly_visible Weak_question::answered() {
     parallel_for(faces_.size(), [&](std::size_t f) { ask(faces_[f]); });
     // 2. What may be hidden together.
     std::vector<Group> all = groups();
-    parallel_for(all.size(), [&](std::size_t g) { hide(all[g], all[g].targets, all[g].counters); });
+    parallel_for(all.size(), [&](std::size_t g) { decide(all[g], all[g].targets, 0); });
     for (Group& group : all) of_groups_.push_back(group.counters);
     // 3. What was not.
     parallel_for(faces_.size(), [&](std::size_t f) { finish(faces_[f]); });
@@ -158,8 +166,12 @@ void Weak_question::ask(Face& face) {
       if (!answer && together) {
         Weak_counters counters;
         answer = searched(piece, s, first_lines, counters);
-        if (answer->status == Weak_status::undecided) face.waiting.push_back(face.pairs.size());
-        else face.counters += counters;
+        if (answer->status == Weak_status::undecided) {
+          face.waiting.push_back(face.pairs.size());
+          answer->proof.clear();  // not searched
+        } else {
+          face.counters += counters;
+        }
       } else if (!answer) {
         answer = searched(piece, s, options_->search, face.counters);
       }
@@ -175,86 +187,126 @@ void Weak_question::ask(Face& face) {
 }
 
 std::vector<Weak_question::Group> Weak_question::groups() const {
-  std::vector<std::vector<std::uint32_t>> targets(sources_->size());
+  constexpr std::size_t most = 128;  // as a group is one thread's
+  std::vector<Targets> targets(sources_->size());
   for (const Face& face : faces_)
     for (const std::size_t k : face.waiting) targets[face.pairs[k].source].push_back(face.pairs[k].piece);
   std::vector<Group> all;
-  for (std::uint32_t s = 0; s < targets.size(); ++s)
-    for (Targets& group : hanging_together(*occluders_, targets[s])) all.push_back({s, std::move(group), {}});
+  for (std::uint32_t s = 0; s < targets.size(); ++s) {
+    std::vector<Targets> left = hanging_together(*occluders_, targets[s]);
+    while (!left.empty()) {
+      Targets group = std::move(left.back());
+      left.pop_back();
+      if (group.size() > most) std::ranges::move(halves(*occluders_, group), std::back_inserter(left));
+      else all.push_back({s, std::move(group)});
+    }
+  }
   return all;
 }
 
+Weak_question::Face& Weak_question::face_of(std::uint32_t piece) {
+  return *std::prev(std::upper_bound(faces_.begin(), faces_.end(), piece,
+                                     [](std::uint32_t p, const Face& later) { return p < later.begin; }));
+}
+
 Weak_question::Pair& Weak_question::waiting_pair(std::uint32_t piece, std::uint32_t source) {
-  // Of the last face that begins at the piece or before.
-  Face& face = *std::prev(std::upper_bound(faces_.begin(), faces_.end(), piece,
-                                           [](std::uint32_t p, const Face& later) { return p < later.begin; }));
+  Face& face = face_of(piece);
   return face.pairs[(piece - face.begin) * sources_->size() + source];
 }
 
-bool Weak_question::is_seen_beside(const Group& group, std::uint32_t target, const Weak_answer& seen,
-                                   Weak_counters& counters) {
-  Weak_answer answer = seen;
-  if (!has_inside(*occluders_, target, seen.sightline[1])) {
-    const auto& [polygon, plane] = (*sources_)[group.source];
-    const auto line = Line_search(*occluders_, polygon, plane, occluders_->polygon(target), target, options_->search)
-                          .beside(seen.sightline[0].near, seen.sightline[1].near, counters);
-    if (!line) return false;
-    answer.sightline.assign(line->begin(), line->end());
+bool Weak_question::is_seen_beside(Group& group, std::uint32_t target, std::size_t tried) {
+  constexpr std::size_t most = 4;  // of the newest
+  const auto& [polygon, plane] = (*sources_)[group.source];
+  for (std::size_t k = group.seen.size(); k > tried && k + most > group.seen.size(); --k) {
+    const Weak_answer& seen = group.seen[k - 1];
+    Weak_answer answer = seen;
+    if (!has_inside(*occluders_, target, seen.sightline[1])) {
+      const auto line = Line_search(*occluders_, polygon, plane, occluders_->polygon(target), target, options_->search)
+                            .beside(seen.sightline[0].near, seen.sightline[1].near, group.counters);
+      if (!line) continue;
+      answer.sightline.assign(line->begin(), line->end());
+    }
+    ++group.counters.targets;
+    waiting_pair(target, group.source).answer = std::move(answer);
+    return true;
   }
-  ++counters.targets;
-  waiting_pair(target, group.source).answer = std::move(answer);
-  return true;
+  return false;
 }
 
-void Weak_question::hide(const Group& group, const Targets& targets, Weak_counters& counters) {
-  constexpr std::size_t cells_each = 512;  // so that what is in vain costs no more than some searches by themselves
-  if (targets.size() < 2 || has_run_out(options_->search.out_of_time)) return;
+void Weak_question::decide(Group& group, Targets targets, std::size_t tried) {
+  std::erase_if(targets, [&](std::uint32_t target) { return is_seen_beside(group, target, tried); });
+  if (targets.empty() || has_run_out(options_->search.out_of_time)) return;
+  if (targets.size() == 1) return decide_alone(group, targets[0]);
+  targets = left_of(group, std::move(targets));
+  tried = group.seen.size();
+  if (targets.size() < 2) return decide(group, std::move(targets), tried);
+  for (const Targets& half : halves(*occluders_, targets)) decide(group, half, tried);
+}
+
+Targets Weak_question::left_of(Group& group, Targets targets) {
+  // Cells: a few where little is known of the targets, then twice as many as some took, or would have taken.
+  constexpr double least_cells = 64, cells_for_each = 2;
   const auto& [polygon, plane] = (*sources_)[group.source];
-  // 1. All at once.
   Near_polygon around = polygon_around(*occluders_, targets);
-  Weak_answer found;
-  if (polygon.size() * around.size() <= most_pairs) {
-    Weak_search_options search = options_->search;
-    search.cells = std::min(search.cells, cells_each * targets.size());
-    Weak_counters own;
-    found =
-        Line_search(*occluders_, polygon, plane, around, occluders_->plane(targets[0]), search, targets[0]).run(own);
-    own.targets = own.away = 0;  // it is none of the pairs that were asked about
-    own.polygons = 1;
-    counters += own;
-  }
+  if (polygon.size() * around.size() > most_pairs) return targets;
+  const double most = std::max(least_cells, cells_for_each * (group.spent + group.saved) - group.in_vain);
+  Weak_search_options search = options_->search;
+  search.cells = std::min(search.cells, static_cast<std::size_t>(most));
+  Weak_counters own;
+  Weak_answer found =
+      Line_search(*occluders_, polygon, plane, around, occluders_->plane(targets[0]), search, targets[0]).run(own);
+  own.targets = own.away = 0;  // it is none of the pairs that were asked about
+  own.polygons = 1;
+  group.counters += own;
+  const double cells = static_cast<double>(own.cells);
+
   if (found.status == Weak_status::hidden) {
+    const double count = static_cast<double>(targets.size());
+    if (group.searched > 0)
+      group.saved += std::max(0.0, count * group.spent / static_cast<double>(group.searched) - cells);
     const auto shared = std::make_shared<const Shared_proof>(
         Shared_proof{std::move(around), std::move(found.proof), std::move(found.lines)});
     for (const std::uint32_t target : targets) {
-      ++counters.targets;
-      ++counters.together;
+      ++group.counters.targets;
+      ++group.counters.together;
       waiting_pair(target, group.source).answer = {Weak_status::hidden, {}, {}, {}, shared};
     }
-    return;
+    return {};
   }
-  // 2. Those that are seen where the polygon is, or right beside; then the others in two parts.
-  Targets rest = targets;
-  if (found.status == Weak_status::visible)
-    std::erase_if(rest, [&](std::uint32_t target) { return is_seen_beside(group, target, found, counters); });
-  if (rest.size() < 2) return;
-  const std::array<Targets, 2> parts = halves(*occluders_, rest);
-  std::array<Weak_counters, 2> of_parts;
-  parallel_for(2, [&](std::size_t k) { hide(group, parts[k], of_parts[k]); });
-  for (const Weak_counters& of_part : of_parts) counters += of_part;
+  std::size_t beside = 0;
+  if (found.status == Weak_status::visible) {
+    const std::size_t tried = group.seen.size();
+    group.seen.push_back(std::move(found));
+    beside = std::erase_if(targets, [&](std::uint32_t target) { return is_seen_beside(group, target, tried); });
+  }
+  group.searched += beside;
+  (beside > 0 ? group.spent : group.in_vain) += cells;
+  return targets;
+}
+
+void Weak_question::decide_alone(Group& group, std::uint32_t target) {
+  // A face that waits for other pairs, too, may be seen by one of them.
+  if (face_of(target).waiting.size() > 1) return;
+  const std::size_t before = group.counters.cells;
+  Weak_answer& answer = waiting_pair(target, group.source).answer;
+  answer = searched(target, group.source, options_->search, group.counters);
+  ++group.searched;
+  group.spent += static_cast<double>(group.counters.cells - before);
+  if (answer.status == Weak_status::visible) group.seen.push_back(answer);
 }
 
 void Weak_question::finish(Face& face) {
   if (face.waiting.empty()) return;
-  for (const std::size_t k : face.waiting) {
-    Pair& pair = face.pairs[k];
-    if (pair.answer.status == Weak_status::undecided) {
+  const auto is_seen = [&](std::size_t k) { return face.pairs[k].answer.status == Weak_status::visible; };
+  if (std::none_of(face.waiting.begin(), face.waiting.end(), is_seen))
+    for (const std::size_t k : face.waiting) {
+      Pair& pair = face.pairs[k];
+      if (pair.answer.status != Weak_status::undecided || !pair.answer.proof.empty()) continue;
       pair.answer = has_run_out(options_->search.out_of_time)
                         ? nothing_known()
                         : searched(pair.piece, pair.source, options_->search, face.counters);
-      if (pair.answer.status == Weak_status::visible) break;
+      if (is_seen(k)) break;
     }
-  }
   settle(face);
   count_done();
 }
