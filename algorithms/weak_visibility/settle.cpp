@@ -136,7 +136,7 @@ void search_thoroughly(const Occluders& occluders, const std::vector<Weak_source
                        Weakly_visible& found) {
   if (found.undecided.empty()) return;
   search.faces = found.undecided;
-  search.together = false;  // what is left touches something, one here, one there
+  search.together_after = {};  // what is left touches something, one here, one there
   search.search.thorough = true;
   search.search.rays = 0;
   search.search.open = 1;

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 namespace sightline {
@@ -32,17 +33,21 @@ class Weak_question {
     std::uint32_t begin, end;  // of its pieces
     Weak_status status = Weak_status::hidden;
     std::vector<Pair> pairs;
-    std::vector<std::size_t> waiting;  // places in `pairs`
+    struct Waiting {
+      std::size_t pair;                     // place in `pairs`
+      std::unique_ptr<Line_search> search;  // that goes on, if it is kept
+    };
+    std::vector<Waiting> waiting;
     Weak_counters counters;
   };
-  /// Targets of one source that may be hidden together, and what was found of them so far.
+  /// Targets that may be hidden together, and what was found of them so far.
   struct Group {
-    std::uint32_t source;
     Targets targets;
     Weak_counters counters = {};
     std::size_t searched = 0;                  // by themselves, or seen where a polygon was
     double spent = 0, saved = 0, in_vain = 0;  // cells: of these, by polygons that are hidden, of polygons that are not
     std::vector<Weak_answer> seen = {};        // sightlines
+    std::unordered_set<std::uint32_t> seen_faces = {};  // by their first pieces
   };
 
   void ask(Face& face);
@@ -63,11 +68,15 @@ class Weak_question {
 
   /// What no search is needed for: pairs that look away, and what hides many targets at once.
   std::optional<Weak_answer> quick_answer(std::uint32_t piece, std::uint32_t source, Weak_counters& counters) const;
-  Weak_answer searched(std::uint32_t piece, std::uint32_t source, const Weak_search_options& search,
-                       Weak_counters& counters) const;
+  std::unique_ptr<Line_search> search_of(std::uint32_t piece, std::uint32_t source) const;
+  /// What the search of a pair comes to, gone on with where it is kept.
+  Weak_answer searched(const Pair& pair, Face::Waiting& waiting, Weak_counters& counters) const;
   std::vector<Group> groups() const;
   Face& face_of(std::uint32_t piece);
-  Pair& waiting_pair(std::uint32_t piece, std::uint32_t source);
+  Pair& waiting_pair(std::uint32_t piece) {
+    Face& face = face_of(piece);
+    return face.pairs[piece - face.begin];
+  }
   static void settle(Face& face);
   void count_done() {
     if (options_->progress) options_->progress(++done_, faces_.size());
@@ -76,15 +85,20 @@ class Weak_question {
   const Occluders* occluders_;
   const std::vector<Weak_source>* sources_;
   const Weak_options* options_;
+  bool is_together_;  // of several sources one mostly sees what another one takes long to
   std::vector<Face> faces_;
   std::vector<std::vector<std::uint32_t>> likely_;  // by source, what may hide each piece
   std::vector<Weak_counters> of_groups_;
-  std::atomic<std::size_t> done_{0};
+  std::atomic<std::size_t> done_{0}, kept_{0};  // faces; searches
 };
 
 Weak_question::Weak_question(const Occluders& occluders, const std::vector<Weak_source>& sources,
                              const Weak_options& options)
-    : occluders_(&occluders), sources_(&sources), options_(&options), likely_(sources.size()) {
+    : occluders_(&occluders),
+      sources_(&sources),
+      options_(&options),
+      is_together_(options.together_after.has_value() && sources.size() == 1),
+      likely_(sources.size()) {
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   for (std::size_t f = 0; f < first.size(); ++f)
@@ -138,10 +152,16 @@ std::optional<Weak_answer> Weak_question::quick_answer(std::uint32_t piece, std:
   return blocked_by(blocker);
 }
 
-Weak_answer Weak_question::searched(std::uint32_t piece, std::uint32_t source, const Weak_search_options& search,
-                                    Weak_counters& counters) const {
+std::unique_ptr<Line_search> Weak_question::search_of(std::uint32_t piece, std::uint32_t source) const {
   const auto& [polygon, plane] = (*sources_)[source];
-  return Line_search(*occluders_, polygon, plane, occluders_->polygon(piece), piece, search).run(counters);
+  return std::make_unique<Line_search>(*occluders_, polygon, plane, occluders_->polygon(piece), piece,
+                                       options_->search);
+}
+
+Weak_answer Weak_question::searched(const Pair& pair, Face::Waiting& waiting, Weak_counters& counters) const {
+  std::unique_ptr<Line_search> search = std::move(waiting.search);
+  if (!search) search = search_of(pair.piece, pair.source);
+  return search->run(counters);
 }
 
 void Weak_question::settle(Face& face) {
@@ -157,23 +177,19 @@ void Weak_question::settle(Face& face) {
 
 void Weak_question::ask(Face& face) {
   if (!is_wanted(face)) return count_done();
-  Weak_search_options first_lines = options_->search;
-  first_lines.cells = 0;
+  constexpr std::size_t most_kept = 500;  // some ten thousand bytes each
   for (std::uint32_t piece = face.begin; piece < face.end; ++piece) {
-    const bool together = options_->together && has_neighbour_in_plane(*occluders_, piece);
+    const bool together = is_together_ && has_neighbour_in_plane(*occluders_, piece);
     for (std::uint32_t s = 0; s < sources_->size(); ++s) {
       std::optional<Weak_answer> answer = quick_answer(piece, s, face.counters);
-      if (!answer && together) {
-        Weak_counters counters;
-        answer = searched(piece, s, first_lines, counters);
-        if (answer->status == Weak_status::undecided) {
-          face.waiting.push_back(face.pairs.size());
-          answer->proof.clear();  // not searched
-        } else {
-          face.counters += counters;
+      if (!answer) {
+        std::unique_ptr<Line_search> search = search_of(piece, s);
+        answer = together ? search->first_answer(face.counters) : search->run(face.counters);
+        if (!answer) {
+          if (!search->can_go_on() || ++kept_ > most_kept) search.reset();
+          face.waiting.push_back({face.pairs.size(), std::move(search)});
+          answer.emplace();
         }
-      } else if (!answer) {
-        answer = searched(piece, s, options_->search, face.counters);
       }
       face.pairs.push_back({piece, s, std::move(*answer)});
       if (face.pairs.back().answer.status != Weak_status::visible) continue;
@@ -188,18 +204,16 @@ void Weak_question::ask(Face& face) {
 
 std::vector<Weak_question::Group> Weak_question::groups() const {
   constexpr std::size_t most = 128;  // as a group is one thread's
-  std::vector<Targets> targets(sources_->size());
+  Targets targets;
   for (const Face& face : faces_)
-    for (const std::size_t k : face.waiting) targets[face.pairs[k].source].push_back(face.pairs[k].piece);
+    for (const Face::Waiting& waiting : face.waiting) targets.push_back(face.pairs[waiting.pair].piece);
+  std::vector<Targets> left = hanging_together(*occluders_, targets);
   std::vector<Group> all;
-  for (std::uint32_t s = 0; s < targets.size(); ++s) {
-    std::vector<Targets> left = hanging_together(*occluders_, targets[s]);
-    while (!left.empty()) {
-      Targets group = std::move(left.back());
-      left.pop_back();
-      if (group.size() > most) std::ranges::move(halves(*occluders_, group), std::back_inserter(left));
-      else all.push_back({s, std::move(group)});
-    }
+  while (!left.empty()) {
+    Targets group = std::move(left.back());
+    left.pop_back();
+    if (group.size() > most) std::ranges::move(halves(*occluders_, group), std::back_inserter(left));
+    else all.push_back({std::move(group)});
   }
   return all;
 }
@@ -209,14 +223,9 @@ Weak_question::Face& Weak_question::face_of(std::uint32_t piece) {
                                      [](std::uint32_t p, const Face& later) { return p < later.begin; }));
 }
 
-Weak_question::Pair& Weak_question::waiting_pair(std::uint32_t piece, std::uint32_t source) {
-  Face& face = face_of(piece);
-  return face.pairs[(piece - face.begin) * sources_->size() + source];
-}
-
 bool Weak_question::is_seen_beside(Group& group, std::uint32_t target, std::size_t tried) {
   constexpr std::size_t most = 4;  // of the newest
-  const auto& [polygon, plane] = (*sources_)[group.source];
+  const auto& [polygon, plane] = sources_->front();
   for (std::size_t k = group.seen.size(); k > tried && k + most > group.seen.size(); --k) {
     const Weak_answer& seen = group.seen[k - 1];
     Weak_answer answer = seen;
@@ -227,14 +236,17 @@ bool Weak_question::is_seen_beside(Group& group, std::uint32_t target, std::size
       answer.sightline.assign(line->begin(), line->end());
     }
     ++group.counters.targets;
-    waiting_pair(target, group.source).answer = std::move(answer);
+    waiting_pair(target).answer = std::move(answer);
+    group.seen_faces.insert(face_of(target).begin);
     return true;
   }
   return false;
 }
 
 void Weak_question::decide(Group& group, Targets targets, std::size_t tried) {
-  std::erase_if(targets, [&](std::uint32_t target) { return is_seen_beside(group, target, tried); });
+  std::erase_if(targets, [&](std::uint32_t target) {
+    return group.seen_faces.contains(face_of(target).begin) || is_seen_beside(group, target, tried);
+  });
   if (targets.empty() || has_run_out(options_->search.out_of_time)) return;
   if (targets.size() == 1) return decide_alone(group, targets[0]);
   targets = left_of(group, std::move(targets));
@@ -244,14 +256,15 @@ void Weak_question::decide(Group& group, Targets targets, std::size_t tried) {
 }
 
 Targets Weak_question::left_of(Group& group, Targets targets) {
-  // Cells: a few where little is known of the targets, then twice as many as some took, or would have taken.
-  constexpr double least_cells = 64, cells_for_each = 2;
-  const auto& [polygon, plane] = (*sources_)[group.source];
+  Weak_search_options search = options_->search;
+  if (const std::size_t after = *options_->together_after; after > 0) {
+    const double most = 2 * (group.spent + group.saved) - group.in_vain;
+    if (most < static_cast<double>(after)) return targets;
+    search.cells = std::min(search.cells, static_cast<std::size_t>(most));
+  }
+  const auto& [polygon, plane] = sources_->front();
   Near_polygon around = polygon_around(*occluders_, targets);
   if (polygon.size() * around.size() > most_pairs) return targets;
-  const double most = std::max(least_cells, cells_for_each * (group.spent + group.saved) - group.in_vain);
-  Weak_search_options search = options_->search;
-  search.cells = std::min(search.cells, static_cast<std::size_t>(most));
   Weak_counters own;
   Weak_answer found =
       Line_search(*occluders_, polygon, plane, around, occluders_->plane(targets[0]), search, targets[0]).run(own);
@@ -269,7 +282,7 @@ Targets Weak_question::left_of(Group& group, Targets targets) {
     for (const std::uint32_t target : targets) {
       ++group.counters.targets;
       ++group.counters.together;
-      waiting_pair(target, group.source).answer = {Weak_status::hidden, {}, {}, {}, shared};
+      waiting_pair(target).answer = {Weak_status::hidden, {}, {}, {}, shared};
     }
     return {};
   }
@@ -285,29 +298,34 @@ Targets Weak_question::left_of(Group& group, Targets targets) {
 }
 
 void Weak_question::decide_alone(Group& group, std::uint32_t target) {
-  // A face that waits for other pairs, too, may be seen by one of them.
-  if (face_of(target).waiting.size() > 1) return;
+  Face& face = face_of(target);
+  Pair& pair = waiting_pair(target);
+  const auto waiting = std::find_if(face.waiting.begin(), face.waiting.end(),
+                                    [&](const Face::Waiting& one) { return &face.pairs[one.pair] == &pair; });
   const std::size_t before = group.counters.cells;
-  Weak_answer& answer = waiting_pair(target, group.source).answer;
-  answer = searched(target, group.source, options_->search, group.counters);
+  pair.answer = searched(pair, *waiting, group.counters);
   ++group.searched;
   group.spent += static_cast<double>(group.counters.cells - before);
-  if (answer.status == Weak_status::visible) group.seen.push_back(answer);
+  if (pair.answer.status != Weak_status::visible) return;
+  group.seen.push_back(pair.answer);
+  group.seen_faces.insert(face.begin);
 }
 
 void Weak_question::finish(Face& face) {
   if (face.waiting.empty()) return;
-  const auto is_seen = [&](std::size_t k) { return face.pairs[k].answer.status == Weak_status::visible; };
+  const auto is_seen = [&](const Face::Waiting& waiting) {
+    return face.pairs[waiting.pair].answer.status == Weak_status::visible;
+  };
   if (std::none_of(face.waiting.begin(), face.waiting.end(), is_seen))
-    for (const std::size_t k : face.waiting) {
-      Pair& pair = face.pairs[k];
-      if (pair.answer.status != Weak_status::undecided || !pair.answer.proof.empty()) continue;
-      pair.answer = has_run_out(options_->search.out_of_time)
-                        ? nothing_known()
-                        : searched(pair.piece, pair.source, options_->search, face.counters);
-      if (is_seen(k)) break;
+    for (Face::Waiting& waiting : face.waiting) {
+      Pair& pair = face.pairs[waiting.pair];
+      if (pair.answer.status != Weak_status::undecided || !pair.answer.proof.empty()) continue;  // it is searched
+      pair.answer =
+          has_run_out(options_->search.out_of_time) ? nothing_known() : searched(pair, waiting, face.counters);
+      if (is_seen(waiting)) break;
     }
   settle(face);
+  face.waiting.clear();
   count_done();
 }
 

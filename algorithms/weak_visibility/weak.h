@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace sightline {
@@ -14,8 +15,10 @@ namespace sightline {
 struct Weak_options {
   Weak_search_options search;
   std::vector<Face_id> faces = {};  ///< to look at, sorted; none: all
-  bool together = true;  ///< whether pieces that hang together in one plane are also sought to be hidden by one search
-  int threads = 0;       ///< 0: as many as there are processors
+  /// Of one source: how many cells pieces that hang together in one plane are to take by themselves, until one search
+  /// is to hide several, in twice as many; 0: at once, in as many as any search; none: never.
+  std::optional<std::size_t> together_after = 64;
+  int threads = 0;                                                  ///< 0: as many as there are processors
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
 

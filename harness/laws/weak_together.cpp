@@ -68,6 +68,7 @@ Outcome run(const Posed_scene& posed, const Answer& answer, Random& random) {
   options.threads = static_cast<int>(1 + random.below(3));
 
   // 1. Together, and one by one.
+  options.together_after = random.chance(1, 4) ? 1 + random.below(32) : 0;
   const Weakly_visible found = weakly_visible(occluders, sources, options);
   const Verdict verdict = verify_weak(soup, weak_certificate(scene, {posed.source}, false, found));
   if (!verdict.accepted) return Outcome::failed("the certificate of fans is rejected: " + verdict.why);
@@ -76,7 +77,7 @@ Outcome run(const Posed_scene& posed, const Answer& answer, Random& random) {
   if (counters.together == 1 || counters.together > found.hidden.size() ||
       (counters.together > 0 && counters.polygons == 0))
     return Outcome::failed("what is hidden together is miscounted");
-  options.together = false;
+  options.together_after = {};
   options.search.rays = 24;
   const Weakly_visible one_by_one = weakly_visible(occluders, sources, options);
   if (one_by_one.counters.together + one_by_one.counters.polygons > 0)

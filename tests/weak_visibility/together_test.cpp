@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 namespace weak_together {
 namespace {
 
@@ -43,9 +45,10 @@ struct Asked {
       : soup(weak_scenes::soup_of(faces)), scene(soup), occluders(scene), sources{weak_source(occluders, source[0])} {}
   Asked(const Asked&) = delete;
 
-  Weakly_visible answer(bool together, int threads = 1, std::size_t cells = Weak_search_options().cells) const {
+  Weakly_visible answer(std::optional<std::size_t> together_after, int threads = 1,
+                        std::size_t cells = Weak_search_options().cells) const {
     Weak_options options;
-    options.together = together;
+    options.together_after = together_after;
     options.threads = threads;
     options.search.cells = cells;
     Weakly_visible found = weakly_visible(occluders, sources, options);
@@ -127,7 +130,7 @@ TEST(Together, polygon_around_has_the_corners_that_turn) {
 
 TEST(Together, one_search_hides_what_hangs_together) {
   const Asked asked(with(fan(3, 8), plates(0)));
-  const Weakly_visible found = asked.answer(true), one_by_one = asked.answer(false), by_threads = asked.answer(true, 3);
+  const Weakly_visible found = asked.answer(0), one_by_one = asked.answer({}), by_threads = asked.answer(0, 3);
   EXPECT_EQ(found.hidden, one_by_one.hidden);
   EXPECT_EQ(found.hidden.size(), 18u);
   EXPECT_EQ(found.counters.together, 16u);
@@ -145,6 +148,17 @@ TEST(Together, one_search_hides_what_hangs_together) {
   EXPECT_GT(certificate.hidden[0].proof.size(), 1u);
 }
 
+TEST(Together, a_polygon_is_searched_once_others_have_taken_cells) {
+  const Asked asked(with(fan(3, 8), plates(0)));
+  const std::size_t each = asked.answer({}).counters.cells / 16;
+  EXPECT_EQ(asked.answer(32 * each + 1).counters.polygons, 0u);
+  const Weakly_visible found = asked.answer(2 * each);
+  EXPECT_GT(found.counters.together, 8u);
+  EXPECT_LT(found.counters.together, 16u);
+  EXPECT_EQ(found.hidden.size(), 18u);
+  EXPECT_EQ(found.counters.targets, 18u);
+}
+
 TEST(Together, what_is_seen_is_told_of_each) {
   // Through a narrow gap all of the ceiling is seen; and so it is beside a plate that ends above a corner of the
   // source.
@@ -152,7 +166,7 @@ TEST(Together, what_is_seen_is_told_of_each) {
        {plates(ratio(1, 1 << 10)),
         Faces{rectangle(-20, ratio(41, 20), -20, 20, 1), rectangle(ratio(21, 10), 20, -20, 20, ratio(11, 10))}}) {
     const Asked asked(with(fan(3, 8), between));
-    const Weakly_visible found = asked.answer(true), one_by_one = asked.answer(false);
+    const Weakly_visible found = asked.answer(0), one_by_one = asked.answer({});
     EXPECT_EQ(found.visible, one_by_one.visible);
     EXPECT_EQ(found.visible.size(), 16u);
     EXPECT_EQ(found.counters.targets, 18u);
@@ -164,7 +178,7 @@ TEST(Together, parts_of_what_hangs_together_are_hidden) {
   // A wall beside the source hides what is behind its plane's other side: some of the triangles, and not all.
   Faces faces = with(fan(3, 8), {rectangle(-20, 1, -20, 20, 1), rectangle(1, 2, -20, 20, 1)});
   const Asked asked(faces);
-  const Weakly_visible found = asked.answer(true), one_by_one = asked.answer(false);
+  const Weakly_visible found = asked.answer(0), one_by_one = asked.answer({});
   EXPECT_EQ(found.visible, one_by_one.visible);
   EXPECT_EQ(found.hidden, one_by_one.hidden);
   EXPECT_EQ(found.counters.targets, 18u);
@@ -194,11 +208,12 @@ TEST(Together, lines_beside_a_sightline_end_in_front_of_the_source_and_begin_in_
 
 TEST(Together, ends_where_cells_or_time_do) {
   const Asked asked(with(fan(3, 8), plates(0)));
-  const Weakly_visible none = asked.answer(true, 1, 0);
+  const Weakly_visible none = asked.answer(0, 1, 0);
   EXPECT_EQ(none.undecided.size(), 16u);
   EXPECT_EQ(none.open.size(), 16u);
   Weak_options options;
   options.threads = 1;
+  options.together_after = 0;
   std::size_t asks = 0;
   for (std::size_t most : {0u, 1u, 5u, 20u, 40u, 60u, 100u}) {
     asks = 0;

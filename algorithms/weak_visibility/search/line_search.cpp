@@ -53,13 +53,34 @@ Line_search::Line_search(const Occluders& occluders, Near_polygon source, const 
 
 Weak_answer Line_search::run(Weak_counters& counters) {
   counters_ = &counters;
+  if (std::exchange(waits_, false)) {
+    counters += first_counters_;
+    return answer_of(refute(0, 0));
+  }
   ++counters.targets;
   const Refutation found = begin(0);
   counters.away += !facing_;
+  return answer_of(found);
+}
+
+std::optional<Weak_answer> Line_search::first_answer(Weak_counters& counters) {
+  only_first_ = true;
+  counters_ = &first_counters_;
+  ++first_counters_.targets;
+  const Refutation found = begin(0);
+  only_first_ = false;
+  if (found.status == Weak_status::undecided) return std::nullopt;
+  counters_ = &counters;
+  counters += first_counters_;
+  counters.away += !facing_;
+  return answer_of(found);
+}
+
+Weak_answer Line_search::answer_of(const Refutation& found) {
   Weak_answer answer;
   answer.status = found.status;
   for (const Edge_lines::Edge_line& line : lines_.all()) answer.lines.push_back(line.edge);
-  counters.lines += lines_.size();
+  counters_->lines += lines_.size();
   if (found.status == Weak_status::visible) answer.sightline.assign(sightline_.begin(), sightline_.end());
   else answer.proof = in_order(found.node);
   return answer;
@@ -88,7 +109,9 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
   settle(domain);
   counters_->occluders += domain.candidates.size();
   if (try_rays(d)) return {Weak_status::visible, 0, {}};
-  return refute(d, 0);
+  if (!only_first_) return refute(d, 0);
+  waits_ = d == 0;
+  return {Weak_status::undecided, 0, {}};
 }
 
 std::optional<std::uint32_t> Line_search::whole_blocker(Line_domain& domain) const {

@@ -44,6 +44,11 @@ class Line_search {
   Line_search(const Line_search&) = delete;
 
   Weak_answer run(Weak_counters& counters);
+  /// What run() says before it searches cells, if that is enough: whether the polygons are away from each other, one
+  /// piece hides it all, or one of the first lines sees. Else nothing, and nothing is counted.
+  std::optional<Weak_answer> first_answer(Weak_counters& counters);
+  /// Whether that was not enough, and run() goes on where it ended; else it has to be asked of another search.
+  bool can_go_on() const { return waits_; }
   /// A sightline beside another line, if one of a few is free. It asks no more than that, and nothing where the plane
   /// of source or target passes the other one. Pre: both are in front of the other's plane, or across it.
   std::optional<std::array<Near_point, 2>> beside(const Triple& p, const Triple& q, Weak_counters& counters);
@@ -69,6 +74,8 @@ class Line_search {
     std::uint32_t line;
     int inside;
   };
+
+  Weak_answer answer_of(const Refutation& found);
 
   // ---- From the whole to the first cell
 
@@ -196,6 +203,8 @@ class Line_search {
   std::vector<Lemma> lemmas_;
   std::vector<std::vector<std::uint32_t>> lemmas_of_;
   std::vector<Node> nodes_;
+  bool only_first_ = false, waits_ = false;  // first_answer() is asked; it was, and a search is to begin with the whole
+  Weak_counters first_counters_;
   bool facing_ = false;  // whether some part of source and target look to each other
   std::array<Near_point, 2> sightline_;
   std::size_t cells_ = 0, open_ = 0;
