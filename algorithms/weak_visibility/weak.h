@@ -26,8 +26,9 @@ struct Weak_options {
 /// q strictly in front of the source and p strictly in front of the face (or off its plane, where two-sided), no closed
 /// face meets the open segment from p to q. Grazing, and cracks of width zero, are not visibility. Degenerate: a face
 /// in a source's plane is hidden; faces that coincide or overlap in a plane do not hide one another. Post: the same at
-/// any number of threads, unless time runs out. Cost: one search for each pair of a source and a piece, see
-/// Line_search. Exact: yes, or undecided. Ref: Plantinga; design.md, sections 1 and 5. Proof: P-70, P-71, P-72
+/// any number of threads, unless time runs out. Cost: one search for each pair of a source and a piece at
+/// most, see Line_search, and from one source one for several pieces now and then. Exact: yes, or undecided. Ref:
+/// Plantinga; design.md, sections 1 and 5. Proof: P-70, P-71, P-72
 Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak_source>& sources,
                               const Weak_options& options = {});
 
