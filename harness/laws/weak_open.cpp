@@ -35,6 +35,17 @@ bool is_in(const Open_cell& cell, const std::vector<Flat_face>& faces, const Exa
   });
 }
 
+/// What is wrong with which pairs are open: of each undecided face one at least is, and of no other face any.
+std::string flaw_of_open(const Scene& scene, const Weakly_visible& found) {
+  std::vector<Face_id> faces;
+  for (const Weakly_visible::Pair& open : found.open) {
+    if (open.answer.status != Weak_status::undecided) return "a pair is open and decided";
+    const Face_id face = scene.pieces()[open.piece].face;
+    if (faces.empty() || faces.back() != face) faces.push_back(face);
+  }
+  return faces == found.undecided ? "" : "undecided faces are not those with open pairs";
+}
+
 Outcome run(const Posed_scene& posed, const Answer& answer, Random& random) {
   constexpr std::size_t most_pieces = 10, most_cells = 2000, most_shown = 1000;
   if (!random.chance(1, 4)) return Outcome::not_applicable();
@@ -52,6 +63,7 @@ Outcome run(const Posed_scene& posed, const Answer& answer, Random& random) {
   options.search.cells = 1 + random.below(12);
   options.search.rays = 0;
   Weakly_visible found = weakly_visible(occluders, sources, options);
+  if (const std::string flaw = flaw_of_open(scene, found); !flaw.empty()) return Outcome::failed(flaw);
   if (found.open.empty()) return Outcome::not_applicable();
   for (const Weakly_visible::Pair& open : found.open) {
     const std::vector<Open_cell> cells = open_cells(occluders, sources[0], open, most_shown);
