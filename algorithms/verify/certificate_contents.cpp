@@ -489,7 +489,7 @@ Certificate Contents::finish(const std::vector<std::pair<std::string, std::optio
     fail("format",
          "expected \"sightline order 2\", or graph, see, weak or along in its place, or 1 in that of 2; or \"sightline "
          "weak "
-         "3\"");
+         "4\"");
 
   // 2. Nothing is wrong below the keys that it has, and none is missing.
   std::vector<std::string_view> needed = {"fragments"}, known = {"points", "pieces", "set_aside"};

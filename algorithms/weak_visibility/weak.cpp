@@ -89,7 +89,7 @@ class Weak_question {
   std::vector<Face> faces_;
   std::vector<std::vector<std::uint32_t>> likely_;  // by source, what may hide each piece
   std::vector<Weak_counters> of_groups_;
-  std::atomic<std::size_t> done_{0}, kept_{0};  // faces; searches
+  std::atomic<std::size_t> done_{0}, kept_{0};  // faces; bytes of searches
 };
 
 Weak_question::Weak_question(const Occluders& occluders, const std::vector<Weak_source>& sources,
@@ -177,7 +177,7 @@ void Weak_question::settle(Face& face) {
 
 void Weak_question::ask(Face& face) {
   if (!is_wanted(face)) return count_done();
-  constexpr std::size_t most_kept = 500;  // some ten thousand bytes each
+  constexpr std::size_t most_kept = std::size_t{1} << 24;  // bytes
   for (std::uint32_t piece = face.begin; piece < face.end; ++piece) {
     const bool together = is_together_ && has_neighbour_in_plane(*occluders_, piece);
     for (std::uint32_t s = 0; s < sources_->size(); ++s) {
@@ -186,7 +186,7 @@ void Weak_question::ask(Face& face) {
         std::unique_ptr<Line_search> search = search_of(piece, s);
         answer = together ? search->first_answer(face.counters) : search->run(face.counters);
         if (!answer) {
-          if (!search->can_go_on() || ++kept_ > most_kept) search.reset();
+          if (!search->can_go_on() || (kept_ += search->bytes()) > most_kept) search.reset();
           face.waiting.push_back({face.pairs.size(), std::move(search)});
           answer.emplace();
         }

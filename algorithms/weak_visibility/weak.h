@@ -15,8 +15,9 @@ namespace sightline {
 struct Weak_options {
   Weak_search_options search;
   std::vector<Face_id> faces = {};  ///< to look at, sorted; none: all
-  /// Of one source: how many cells pieces that hang together in one plane are to take by themselves, until one search
-  /// is to hide several, in twice as many; 0: at once, in as many as any search; none: never.
+  /// Of one source: from how many cells on one search is to hide several pieces that hang together in one plane. It
+  /// gets twice as many as they took by themselves, or were saved so, less those that such searches took in vain; 0: at
+  /// once, as many as any search; none: never.
   std::optional<std::size_t> together_after = 64;
   int threads = 0;                                                  ///< 0: as many as there are processors
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread

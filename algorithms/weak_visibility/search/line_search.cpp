@@ -76,6 +76,15 @@ std::optional<Weak_answer> Line_search::first_answer(Weak_counters& counters) {
   return answer_of(found);
 }
 
+std::size_t Line_search::bytes() const {
+  std::size_t bytes = sizeof(*this);
+  for (const std::unique_ptr<Line_domain>& domain : domains_)
+    if (domain)
+      bytes += domain->candidates.capacity() * sizeof(Candidate) + domain->pair_count() * sizeof(Pluecker) +
+               (domain->source.size() + domain->target.size()) * sizeof(Near_point);
+  return bytes;
+}
+
 Weak_answer Line_search::answer_of(const Refutation& found) {
   Weak_answer answer;
   answer.status = found.status;

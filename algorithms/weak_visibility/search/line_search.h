@@ -49,6 +49,8 @@ class Line_search {
   std::optional<Weak_answer> first_answer(Weak_counters& counters);
   /// Whether that was not enough, and run() goes on where it ended; else it has to be asked of another search.
   bool can_go_on() const { return waits_; }
+  /// About how many bytes it takes to keep, mostly of candidates and of pairs of corners.
+  std::size_t bytes() const;
   /// A sightline beside another line, if one of a few is free. It asks no more than that, and nothing where the plane
   /// of source or target passes the other one. Pre: both are in front of the other's plane, or across it.
   std::optional<std::array<Near_point, 2>> beside(const Triple& p, const Triple& q, Weak_counters& counters);
